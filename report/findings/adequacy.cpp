@@ -9,7 +9,8 @@
 namespace crosscheck {
 namespace {
 
-/// A scene's smallest adequate model at one tolerance; nothing if other initial states might do with a smaller one.
+/// A scene's smallest adequate model at one tolerance; nullopt if a smaller model might be adequate for other initial
+/// states.
 std::optional<Finding> finding_of(const LeastModelRow& least, const std::string& until) {
   if (least.left_out.empty() && !least.holds) return std::nullopt;
   const auto unseen = {least.unseen_error_1, least.unseen_error_2, least.unseen_error_3};
@@ -71,7 +72,7 @@ Findings adequacy_findings(const Facts& facts) {
 Findings bend_findings(const Facts& facts) {
   const auto of_cells = power_of(facts.rows, "", ScalingQuantity::bend_stiffness_for_droop);
   if (!of_cells) return {};
-  std::vector<std::pair<double, double>> points;  // against the bend springs along a line
+  std::vector<std::pair<double, double>> points;  // power of the number of bend springs along a line
   for (const BendingRow& row : rows_of<BendingRow>(facts.rows))
     points.emplace_back(double(row.particles) - 2, row.stiffness);
   const auto of_springs = power_law(points);

@@ -63,7 +63,7 @@ const MethodData* nearest_other(const SceneData& scene) {
   return best;
 }
 
-/// Difference of the nearest method; used if no other engine has mysim's rule.
+/// Difference of the nearest method; used if no other engine has the same rule as mysim.
 Findings difference_answer(std::span<const SceneData> data) {
   Largest apart, growth;
   std::string method;
@@ -89,7 +89,7 @@ Findings difference_answer(std::span<const SceneData> data) {
 }
 
 /// Compares another engine's method with mysim's representative at the same step, on scenes without contact and without
-/// other laws.
+/// force laws that differ between the engines.
 struct EngineApart {
   std::string method;
   Largest apart = {};
@@ -205,7 +205,7 @@ Findings method_answer(const Facts& facts) {
 
 namespace {
 
-/// Counts failures at the scenes' own steps; used if experiment `stability` did not run.
+/// Counts failures at the scenes' own steps; used if there are no results of experiment `stability`.
 Findings failed_runs_answer(std::span<const SceneData> data) {
   size_t failed = 0, all = 0;
   std::vector<std::string> names;
@@ -222,8 +222,8 @@ Findings failed_runs_answer(std::span<const SceneData> data) {
            .words = {{"runs", std::to_string(all)}, {"which", listed(names)}}}};
 }
 
-/// The limit of the main scene in a state, and how all limits in that state agree with theory. Without a state of rest,
-/// theory sees only the initial state, so the truth must have confirmed the limit.
+/// The limit of the main scene in a state, and how all limits in that state agree with theory. If the scene has no
+/// state of rest, theory uses only the initial state, so the truth must have confirmed the limit.
 Findings limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
   const auto run = recommended_run(scene.name, recommended_part, rows);
   std::optional<LimitRow> shown;
@@ -256,7 +256,7 @@ Findings failure_answer(const Facts& facts) {
   return failed_runs_answer(facts.data);
 }
 
-/// Results on slopes and on the last scene with contact; nothing without balls and planes.
+/// Results on slopes and on the last scene with contact; empty if there are no balls and planes.
 Findings ball_answer(const Facts& facts) {
   std::vector<ConeCount> counts = cone_counts(rows_of<ConeRow>(facts.rows));
   const std::vector<ConeCount> planes = cone_counts(plane_cones(facts.rows));

@@ -8,16 +8,16 @@
 
 namespace crosscheck {
 
-/// To add a question to the first screen, add a row in answers.cpp.
+/// A question on the first screen. To add one, add a row in answers.cpp.
 struct Question {
   std::string_view text;
-  std::string_view chapter;             // id of the chapter that shows the answer, too
+  std::string_view chapter;             // id of the chapter that also shows the answer
   std::string_view link;                // text of the link to the chapter
   std::vector<std::string_view> rules;  // keys of the possible answers
 };
 const std::vector<Question>& questions();
 
-/// Null if the tables do not answer the question.
+/// The answer to a question, or null if the tables contain none.
 const Finding* answer_to(const Question& question, const Findings& findings);
 /// Joined answers to the questions of a chapter.
 std::string answers_of_chapter(std::string_view chapter, const Findings& findings);

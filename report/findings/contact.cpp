@@ -28,7 +28,8 @@ Findings cone_findings(const Facts& facts) {
   return out;
 }
 
-/// Errors of mysim's representative on planes at the usual step, and how well a particle rests.
+/// Errors of mysim's representative on planes at the usual step; for all of mysim's methods, errors of a particle that
+/// comes to rest on a plane.
 Findings plane_findings(const Facts& facts) {
   const auto rows = rows_of<PlaneProbeRow>(facts.rows);
   if (rows.empty()) return {};
@@ -56,9 +57,9 @@ Findings plane_findings(const Facts& facts) {
   return out;
 }
 
-/// Positions after the window. Compares each other engine's final difference with those between mysim's own rules,
-/// which share a contact rule and show how far positions are predictable. These rules have an order above one and are
-/// stable without damping (Heun adds energy).
+/// Positions after the comparison window. Compares each other engine's final difference with those between mysim's own
+/// rules, which share a contact rule and show how far positions are predictable. The rules used have an order above one
+/// and are stable without damping (Heun adds energy).
 Findings contact_findings(const Facts& facts) {
   std::vector<std::string> scenes;
   for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);
@@ -114,7 +115,7 @@ Findings leaving_findings(const Facts& facts) {
     f.words = {{"step", step_text(step)},
                {"longest", step_text(offs[method].rbegin()->first)},
                {"off", fmt::format("{:.2g} degrees", offs[method].rbegin()->second)}};
-    // for mysim, keep the worst method
+    // for mysim, keep only the method with the largest deviation
     const auto same = std::ranges::find_if(
         out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
     if (same == out.end())

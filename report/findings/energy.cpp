@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Largest residual / energy exchanged; nothing at rest, or if not measured.
+/// Largest residual / energy exchanged; nullopt at rest, or if it was not measured.
 std::optional<double> share_of(const EnergyRow& row) {
   if (!(row.turned_over.value_or(0) > 0)) return std::nullopt;
   return row.largest_residual.value_or(0) / *row.turned_over;
@@ -50,8 +50,8 @@ void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   out.insert(out.end(), exceptions.begin(), exceptions.end());
 }
 
-/// Drift on the first undamped scene for rules that are not symplectic: position-based, never stable and implicit ones,
-/// and user programs.
+/// Reports failed runs on the first undamped scene, for rules that are not symplectic: position-based, never stable and
+/// implicit ones, and user programs.
 void drift(const std::vector<EnergyRow>& table, Findings& out) {
   std::vector<std::string> shown{subject_method(never_stable_undamped), subject_method(is_implicit)};
   for (const MethodFamily* peer : default_peers()) shown.push_back(position_based(*peer));
@@ -91,7 +91,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       if (row.scene != scene || !row.contact || row.verdict != Verdict::ok || row.method == sticky_sphere) continue;
       const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
       if (row.method == ours) first = &row;
-      // contact energy inferred from the balance includes numerical damping
+      // mysim's methods need a measured contact energy: one inferred from the balance includes numerical damping
       if (may_move_alike(row.method)) others.push_back(&row);
       if (!row.contact_inferred && row.method != ours && family_of(row.method).is_subject() &&
           (!furthest || off(&row) > off(furthest)))
@@ -140,7 +140,7 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
-/// Damping that other engines add to an undamped spring, and energy gained where springs are forces.
+/// Damping that other engines add to an undamped spring, and energy that they gain if their springs are forces.
 void damping_of_engines(std::vector<MatrixRow<false>> table, Findings& out) {
   std::erase_if(
       table, [](const MatrixRow<false>& row) { return family_of(row.method).is_subject() || !row.value || !row.bar; });

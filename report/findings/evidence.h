@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// The last figure that shows a finding; empty if there is none.
+/// The last of the `figures` that shows a finding; empty if none does.
 std::string figure_of(std::string_view rule, const std::string& scene, const std::vector<std::string>& figures);
 
 struct Evidence {
@@ -21,11 +21,11 @@ struct Evidence {
 /// In the format of report.json.
 Json json_of(const Evidence& evidence);
 
-/// Rows of the tables of the finding's rule; only those of its scene, if it has one.
+/// Rows of the tables of the finding's rule; only rows of the finding's scene, if it has one.
 std::vector<Evidence> evidence_of(const Finding& finding, const TableSet& result);
 Evidence evidence_of(const Table& table);
 
-/// First findings about all scenes, then those of each scene.
+/// Findings about all scenes, followed by those of each scene.
 struct AllFindings {
   std::vector<SceneData> facts;  // one per scene
   Findings overall;

@@ -33,7 +33,7 @@ struct Finding {
   std::optional<double> low = {};  // interval: an error bar, the resolution of a search, or the range over scenes
   std::optional<double> high = {};
   std::string tier = {};
-  std::map<std::string, std::string> words = {};  // further words of its text
+  std::map<std::string, std::string> words = {};  // values of the placeholders in its text
 };
 
 using Findings = std::vector<Finding>;
@@ -43,26 +43,26 @@ struct FindingRule {
   std::string_view key;
   Findings (*find)(const Facts&);  // called once, even if several rows share it
   std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
-  std::string_view chapter;   // id of its chapter; empty: the part of its scene
+  std::string_view chapter;   // id of its chapter; empty: it is in the section of its scene
   std::string_view quantity;  // name of `value`
-  std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
-  std::string_view tier;      // tier of its truth; empty: each finding has its own
-  std::string_view words;     // words that its findings may define, separated by blanks
+  std::string_view unit;      // unit of `value`, `low` and `high`: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
+  std::string_view tier;      // tier of its truth; empty: set in each finding
+  std::string_view words;     // placeholders that its findings may define, separated by blanks
   std::vector<std::string_view> tables;
-  std::string_view figure = {};  // figure that shows it: "{}" stands for its scene, "*" for any; empty: a table
+  std::string_view figure = {};  // figure that shows it: "{}": its scene, "*": any text; empty: a table
 };
 
 const std::vector<FindingRule>& finding_rules();
 /// Accepts a key with or without a variant. Throws std::logic_error with the key if it is unknown.
 const FindingRule& finding_rule(std::string_view key);
 
-/// Findings of the rules with a chapter (`of_scene`: without one), in the rules' order.
+/// Findings of the rules with a chapter, or, if `of_scene`, of the rules without one; in the rules' order.
 Findings found_by_rules(const Facts& facts, bool of_scene);
 
 // Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with the formula of the value in terms of table
-// columns. {value}, {low} and {high} are written in the rule's unit, {range} is low to high, and {value±} an exponent
-// with its standard error. {scene}, {method} and {other} are names; others are words of the finding. Square brackets
-// enclose text that is omitted if one of its words is empty.
+// columns. {value}, {low} and {high} are written in the rule's unit, {range} is "low to high", and {value±} is an
+// exponent with its standard error. {scene}, {method} and {other} are names; other placeholders are in Finding::words.
+// Square brackets enclose text that is omitted if one of its placeholders is empty.
 
 struct FindingText {
   std::string sentence, formula;
@@ -77,7 +77,7 @@ std::string tier_of(const Finding& finding);
 /// In the format of report.json, without the rows.
 Json json_of(const Finding& finding);
 
-// Functions of the rules.
+// Functions that the rules call.
 
 // answers.cpp: at most one finding each
 Findings agreement_answer(const Facts&);

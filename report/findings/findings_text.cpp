@@ -47,7 +47,7 @@ std::string name_in_sentence(const std::string& name) {
   const size_t slash = is_program ? name.rfind('/', name.find('+')) : name.find('/');
   if (is_program) return name.substr(slash == std::string::npos ? program_prefix.size() : slash + 1);
   if (slash == std::string::npos) return name == family.name && family.by_default() ? std::string(family.title) : name;
-  // the name in the literature; commands and tables use the assignment's name
+  // the reader sees the name in the literature; commands and tables use the assignment's name
   if (family.is_subject()) return name == "mysim/trapezoidal" ? "Heun" : short_name(name);
   return family.by_default() ? fmt::format("{}'s {}", family.title, name.substr(slash + 1)) : name;
 }

@@ -22,11 +22,12 @@ std::vector<std::string> representatives();
 /// representatives() and the sticky sphere, for scenes with contact.
 std::vector<std::string> representatives_in_contact();
 
-/// True for representatives of engines and for users' programs: findings that name only a few methods may name them.
+/// True for representatives of engines and for users' programs, which are the methods that findings name if they name
+/// only a few.
 bool stands_for_its_engine(const std::string& method);
 /// True for engines other than mysim, but not for truths.
 bool is_another_engine(const std::string& method);
-/// is_another_engine() without external integrators of our right-hand side.
+/// True if is_another_engine(), except for external integrators of our right-hand side.
 bool is_rival(const std::string& method);
 /// True for another engine's representative that is not position-based, so that it may move like mysim.
 bool may_move_alike(const std::string& method);
@@ -34,7 +35,7 @@ inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
 inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
 
-/// "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5"; for programs the base name.
+/// Names for sentences: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5"; for programs the base name.
 std::string name_in_sentence(const std::string& name);
 std::vector<std::string> names_in_sentence(const std::vector<std::string>& names);
 
@@ -53,17 +54,17 @@ inline std::string passes_text(const std::string& method, long n) {
 std::string times_text(double factor);
 /// "a, b and c"
 std::string joined(const std::vector<std::string>& words);
-/// Replaces words after the first `most` by "2 more".
+/// Lists words. Replaces those after the first `most` by, for instance, "2 more".
 std::string listed(std::vector<std::string> words, size_t most = 3);
-/// "0.12 % to 66 %", or one of the two if they are equal.
+/// "0.12 % to 66 %", or only one of the values if they are equal.
 inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
 void add_once(std::vector<std::string>& words, const std::string& word);
 
-/// True for a method of the same rule whose difference exceeds round-off without contact, another law or chaos as a
-/// reason.
+/// True for a method of the same rule whose difference exceeds round-off, although there is no contact, other law or
+/// chaos that would explain it.
 bool same_rule_differs(const SceneData& data, const MethodData& method);
 
 }  // namespace crosscheck

@@ -42,7 +42,7 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
   const auto any = std::ranges::find(table, scene, &SpeedAccuracyRow::scene);
   if (any == table.end() || !any->truth_bar) return std::nullopt;
   std::vector<TriedRun> runs = tried_runs(table, scene);
-  // an evaluation of an external program costs something else: such programs are compared by CPU time
+  // compare external programs by CPU time, because their force evaluations differ in cost from ours
   const auto is_outside = [](const TriedRun& run) { return family_of(run.method).role == Role::outside; };
   if (!std::ranges::all_of(runs, is_outside)) std::erase_if(runs, is_outside);
   const auto chosen = recommend(runs, part_of_motion * any->motion - *any->truth_bar);

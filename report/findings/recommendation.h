@@ -11,14 +11,15 @@
 
 namespace crosscheck {
 
-/// The representative scene: the last timed cloth without contact, otherwise the last timed scene, or null.
+/// The representative scene: the last timed cloth without contact, or else the last timed scene. Null if no scene was
+/// timed.
 const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows);
 
 /// Cheapest run of another engine within the same accuracy.
 struct EngineBeside {
   std::string engine, method;
-  double times = 0;         // CPU time / that of mysim's run
-  bool timed_whole = true;  // false: scaled from a part of the run
+  double times = 0;         // CPU time of this run / CPU time of mysim's run
+  bool timed_whole = true;  // false: the CPU time is scaled from a part of the run
 };
 
 struct RecommendedRun {
@@ -30,14 +31,15 @@ struct RecommendedRun {
   std::string tier;                  // tier of the truth
   long evaluations = 0;              // force evaluations: the cost that is minimised
   double cost = 0;                   // CPU time, s
-  bool timed_whole = true;           // false: scaled from a part of the run
-  std::vector<std::string> tied;     // methods of the same cost with larger errors
+  bool timed_whole = true;           // false: the CPU time is scaled from a part of the run
+  std::vector<std::string> tied;     // methods that cost the same but have larger errors
   std::vector<EngineBeside> beside;  // empty if mysim has no run within the accuracy
   std::string_view bound;            // why the step cannot be longer: stability, accuracy, failure or sampling
 };
 
-/// The run that recommend() chooses within a fraction of the motion (usually 0.01; other fractions use only the
-/// ladder's steps). Empty if there is no such run, truth, or timing.
+/// The run that recommend() chooses, with an error of at most this fraction of the motion (usually 0.01; other
+/// fractions use only the steps that were measured for all methods). Returns nullopt if there is no such run, no truth,
+/// or no timing.
 std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows);
 
 /// "step 2 ms", or "tolerance 1.0e-6".

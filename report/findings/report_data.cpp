@@ -42,7 +42,7 @@ bool is_useless(const MethodData& run, const SceneData& scene) {
 SceneData scene_data(const std::string& scene, const TableSet& result) {
   SceneData facts;
   facts.scene = scene;
-  // without any row, the page's list of problems gives the reason
+  // if the scene has no row, the page's list of problems gives the reason
   for (EngineRow& run : rows_of<EngineRow>(result)) {
     if (run.scene != scene) continue;
     facts.motion = run.motion, facts.window = run.window;

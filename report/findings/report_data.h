@@ -14,11 +14,12 @@
 
 namespace crosscheck {
 
-/// "blew up", "solver gave up", "froze", "cannot": failures in words.
+/// Failures in words: "blew up", "solver gave up", "froze", "cannot".
 std::string failure_class(std::string_view verdict);
 inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
 
-/// Error, difference and clearance are the largest within the window.
+/// One method's results on a scene. Error, difference and clearance are the largest values within the comparison
+/// window.
 struct MethodData : EngineRow {
   std::optional<double> energy_error = {};  // relative
   bool supported() const { return verdict != Verdict::unsupported; }
@@ -34,16 +35,17 @@ struct MethodData : EngineRow {
 struct SceneData {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
-  double measured_window = 0;                 // s, until a perturbation of 1e-10 m has grown a thousandfold
+  double measured_window = 0;                 // s; after this time, a perturbation of 1e-10 m has grown a thousandfold
   std::string tier;                           // tier of the truth; empty: no truth
   double error_bar = 0;                       // m
   std::string truth;                          // derivation of the truth in one sentence
   std::optional<double> truth_until;          // s, if the truth ends early
-  // if the truth is the converged in-house contact rule, its tier, bar and end; `tier` is then empty
+  // if the truth is the converged in-house contact rule, `tier` is empty, and these are the rule's tier, error bar and
+  // end
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;
-  /// Smallest round-off bound of the methods: that of double precision.
+  /// Smallest round-off bound of the methods, which is that of double precision.
   std::optional<double> round_off() const;
   /// True if a run came within a millimetre of the sphere's contact surface.
   bool touched() const;
@@ -65,7 +67,7 @@ std::string nice(double value);
 std::string nice_length(double metres);
 /// "500 µs", "1.12 ms", "3 s"
 std::string step_text(double seconds);
-/// The step in use, which divides the time between samples: "31.4 ms (of the 50 ms asked for)".
+/// The step in use, which divides the time between samples: "31.4 ms (of the 50 ms requested)".
 std::string own_step_text(const Scene& scene);
 /// "2 ms" for "step [s]", or "tolerance 1.0e-6" for "tolerance [1]".
 std::string setting_text(std::string_view setting, double value);

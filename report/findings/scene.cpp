@@ -36,7 +36,8 @@ void agreement(const Scene& scene, const SceneData& data, Findings& out) {
     if (b.ok() && b.difference && may_move_alike(b.method)) out.push_back(agreement_with(b, scene, data));
 }
 
-/// The cheapest method whose error is below the truth's error bar or at most 5 % above the best.
+/// Names the cheapest of the methods whose error is below the truth's error bar or at most 5 % above the smallest
+/// error.
 void nearest(const Scene& scene, const SceneData& data, Findings& out) {
   std::vector<MethodData> tied = data.methods;
   std::erase_if(tied, [](const MethodData& m) { return !m.judged(); });
@@ -81,8 +82,8 @@ void failures(const SceneData& data, Findings& out) {
            {"limit", first->step_limit && *first->step_limit < first->step ? step_text(*first->step_limit) : ""}}});
 }
 
-/// Differences from the converged in-house contact rule. They are not errors, because other contact rules have other
-/// limits.
+/// Differences from the converged in-house contact rule. They are not called errors, because other contact rules
+/// converge to other motions.
 void converged_contact(const SceneData& data, Findings& out) {
   if (!data.contact_until) return;
   const std::string of_second_order = subject_method(is_symplectic_of_second_order);

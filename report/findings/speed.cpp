@@ -33,7 +33,7 @@ Finding finding_of(const std::string& rule, const Span& span) {
 
 }  // namespace
 
-/// CPU time of other engines for the same accuracy, and engines that do not reach it.
+/// CPU times that other engines need for the same accuracy, and engines that do not reach it.
 Findings speed_findings(const Facts& facts) {
   const TableSet& rows = facts.rows;
   std::map<std::string, Span> times;
@@ -74,8 +74,8 @@ Findings speed_findings(const Facts& facts) {
   return out;
 }
 
-/// Times of the same rule in both engines by size: kernels for any spring graph, and mysim's fused step for regular
-/// cloths.
+/// CPU times of the same rule in both engines, by size of the cloth: of kernels for any spring graph, and of mysim's
+/// fused step for regular cloths.
 Findings cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;

@@ -34,8 +34,9 @@ Findings limit_findings(const Facts& facts) {
 
 namespace {
 
-/// Compares limits of scenes without rest with the truth on both sides. If the truth does not confirm all, names the
-/// worst run that was called stable, or the best run that was called failed.
+/// Tests limits of scenes without a state of rest: compares runs below and above each limit with the truth. If the
+/// truth does not confirm all limits, names the worst run that was called stable, or the best run that was called
+/// failed.
 void limits_by_truth(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<LimitRow>> by_scene;
   for (LimitRow& row : rows_of<LimitRow>(rows))
@@ -78,7 +79,7 @@ void without_stable_step(const TableSet& rows, Findings& out) {
 void growth(const TableSet& rows, Findings& out) {
   Finding f{.rule = "growth", .value = -1};
   for (const GrowthRow& row : rows_of<GrowthRow>(rows))
-    // omit growth near a limit
+    // omit rows near a stability limit
     if (const double off = 100 * std::abs(row.deviation); !row.share_of_limit && off > f.value)
       f.value = off, f.method = row.method, f.words = {{"where", row.scene}};
   if (f.value >= 0) out.push_back(f);

@@ -38,7 +38,7 @@ std::string ingredients_text(const std::string& left_out, size_t most) {
   std::vector<std::string> all;
   for (std::string& each : split(left_out, ',')) all.push_back(each.substr(each.find_first_not_of(' ')));
   if (all.size() > most) return counted(all.size(), "ingredient");
-  // name the common noun only once
+  // write the common noun only once
   constexpr std::string_view noun = " springs";
   for (size_t i = 0; i + 1 < all.size(); ++i)
     if (all[i].ends_with(noun) && all[i + 1].ends_with(noun)) all[i].resize(all[i].size() - noun.size());
@@ -79,11 +79,12 @@ constexpr double agrees_within = 0.01;
 
 struct StepLimitComparison {
   enum Kind { agrees, coarse, apart } kind = agrees;
-  std::optional<double> off;  // measured / predicted - 1, if both are finite steps
+  std::optional<double> off;  // measured / predicted - 1, if both steps are finite
   std::string how;            // for `apart`
 };
 
-/// Nothing if there is no theory, the method does not support the scene, or theory's limit was not tried.
+/// Returns nullopt if there is no theory, the method does not support the scene, or the predicted limit is beyond the
+/// steps tried.
 std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
   using enum StepLimitComparison::Kind;
   const PredictionKind theory = row.prediction;
@@ -101,7 +102,7 @@ std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
                                         : fmt::format("{:+.2g} % off", 100 * off)};
   }
   const bool refused = run == MeasuredLimit::refused_above, never = run == MeasuredLimit::no_step;
-  // the limit is beyond the steps tried, or beyond a refused step
+  // the predicted limit is beyond the steps tried, or beyond a step that the method refused
   if (theory == PredictionKind::limit && (never ? failed >= predicted : held <= predicted)) return std::nullopt;
   if (theory == PredictionKind::every_step && refused) return std::nullopt;
   if (theory != PredictionKind::limit && run != MeasuredLimit::found && (theory == PredictionKind::every_step) != never)
@@ -124,7 +125,7 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
   for (const LimitRow& row : rows) {
     const auto found = row.state == state ? compare_step_limit(row) : std::nullopt;
     if (!found) continue;
-    // between the last stable and the first failed step
+    // relative distance between the last stable and the first failed step
     const double bracket = row.held && row.failed ? *row.failed / *row.held - 1 : 0;
     if (found->kind == StepLimitComparison::apart) {
       ++counts.apart;

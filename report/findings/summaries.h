@@ -16,11 +16,11 @@
 
 namespace crosscheck {
 
-// Relative energy residual of a long run.
+// Two classes of the relative energy residual of a long run.
 
 inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
 
-/// Class of the residual of a run whose balance closes. For a failed run, how it failed.
+/// Class of the energy residual of a run whose energy balance closes. For a failed run, describes the failure.
 std::string residual_class(const EnergyRow& run);
 inline bool is_bounded(const std::string& word) { return word == residual_bounded || word == residual_none; }
 
@@ -31,10 +31,11 @@ std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene,
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 
-/// "bend and shear springs" for "bend springs, shear springs"; "nothing"; "4 ingredients" if more than `most`.
+/// Names left-out ingredients: "bend and shear springs" for "bend springs, shear springs"; "nothing"; "4 ingredients"
+/// if there are more than `most`.
 std::string ingredients_text(const std::string& left_out, size_t most = 3);
 
-/// The step (s) nearest to a millisecond.
+/// The step (s) of the rows that is nearest to a millisecond.
 template <class Row>
 double usual_step(const std::vector<Row>& rows) {
   return std::ranges::min(rows, {}, [](const Row& row) { return std::abs(row.step - 1e-3); }).step;
@@ -49,31 +50,32 @@ struct ConeCount {
 };
 std::vector<ConeCount> cone_counts(const std::vector<ConeRow>& rows);
 std::vector<ConeRow> plane_cones(const TableSet& rows);
-/// Null if there is none.
+/// The count of a method, or null if there is none.
 const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method);
 
-// Measured stability limits and theory, from table `stability`.
+// Comparison of measured stability limits with theory, from table `stability`. The last stable and the first failed
+// step of a search form its bracket.
 
 /// Counts rows of one state whose theoretical limit is within the range of steps tried.
 struct StepLimitCounts {
   size_t agreeing = 0;              // deviation of 1 % or less
-  double deviation = 0;             // largest deviation of these, relative to the predicted step
+  double deviation = 0;             // largest deviation of the agreeing rows, relative to the predicted step
   std::vector<std::string> scenes;  // their scenes
-  size_t coarse = 0;  // larger deviation, but theory's limit is between the last stable and the first failed step
-  double widest = 0;  // largest bracket of both kinds, relative to the stable step
+  size_t coarse = 0;                // larger deviation, but the predicted limit is in the bracket
+  double widest = 0;                // largest bracket of both kinds, relative to the stable step
   size_t apart = 0;
-  std::string method, where;  // the largest deviation of these
+  std::string method, where;  // the row with the largest deviation among the other rows
   size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };
 StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState state);
 
-/// True if the truth of a scene without a state of rest confirms a limit: runs just below it are useful, runs just
-/// above it are not. False if nothing was compared.
+/// True if the truth of a scene without a state of rest confirms a limit: runs just below the limit are useful, and
+/// runs just above it are not. False if nothing was compared.
 bool confirmed_by_truth(const LimitRow& row);
 
-/// "-0.12 %" or "47 times as long" for `off` = measured / predicted - 1; "within ±0.07 %" if below `finest`, the
-/// resolution of the search.
+/// "-0.12 %" or "47 times as long" for `off` = measured / predicted - 1; "within ±0.07 %" if the deviation is below
+/// `finest`, the resolution of the search.
 std::string deviation_text(double off, double finest = 0);
 
 }  // namespace crosscheck

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Lines before the first key are for editors.
+/// Reads the texts of a file, whose lines before the first key are for editors.
 void read_texts(const std::string& file, std::map<std::string, FindingText>& texts) {
   FindingText* text = nullptr;
   int number = 0;

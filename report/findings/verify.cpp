@@ -68,7 +68,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   if (claimed["tier"].text() != tier_of(now)) return differs(fmt::format("it rests on \"{}\"", tier_of(now)));
   const JsonField all = JsonField::parse(dump(json_of(now)), "the data");
   for (const auto& [key, value] : all.items()) {
-    const auto said = claimed.find(key);  // a missing field is null
+    const auto said = claimed.find(key);  // a missing field counts as null
     if ((said ? said->dump() : "null") != value.dump())
       return differs(fmt::format("the data say {}: {}", key, value.dump()));
   }
@@ -120,7 +120,7 @@ SentencesByKey findings_in(const fs::path& old) {
 
 bool rests_on_timings(const std::string& key) {
   const std::string_view rule = std::string_view(key).substr(0, key.find('.'));
-  const auto found = std::ranges::find(finding_rules(), rule, &FindingRule::key);  // null for a removed rule
+  const auto found = std::ranges::find(finding_rules(), rule, &FindingRule::key);  // end() for a rule that was removed
   return found != finding_rules().end() &&
          std::ranges::any_of(found->tables, [](std::string_view table) { return table.ends_with("-cost"); });
 }
@@ -129,7 +129,7 @@ bool rests_on_timings(const std::string& key) {
 
 std::vector<Change> changes_since(const fs::path& old, const AllFindings& now) {
   SentencesByKey before = findings_in(old), after;
-  std::vector<Key> order;  // this report, then removed findings
+  std::vector<Key> order;  // keys in the order of this report, followed by those of removed findings
   for (const Finding* f : now.each()) {
     const Key key{f->scene, f->rule, f->method, f->other};
     if (!after.contains(key)) order.push_back(key);

@@ -14,8 +14,8 @@ inline constexpr int report_format = 2;
 struct Verification {
   int findings = 0;                     // in report.json
   int rows = 0;                         // in all tables
-  std::vector<std::string> mismatches;  // messages; those about tables and scenes first
-  size_t of_data = 0;                   // messages about tables and scenes
+  std::vector<std::string> mismatches;  // messages; those about tables and scenes come first
+  size_t of_data = 0;                   // number of messages about tables and scenes
 };
 
 /// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, recomputes every finding, and compares sentence,
@@ -27,11 +27,11 @@ Verification verify_report(const std::filesystem::path& folder);
 struct Change {
   std::string scene;        // empty: all scenes
   std::string before, now;  // sentences; empty for new or removed findings
-  bool timed = false;       // rests on timings, which differ in every run
+  bool timed = false;       // depends on timings, which differ in every run
 };
 
-/// Compares findings with those of OLD/report.json. Pairs findings of the same rule, scene and method in order; omits
-/// unchanged ones. Throws InputError if OLD has no finished report of this format.
+/// Compares findings with those of OLD/report.json. Pairs findings of the same rule, scene and method in their order,
+/// and omits unchanged findings. Throws InputError if OLD has no finished report of this format.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck
