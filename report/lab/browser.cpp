@@ -1,5 +1,5 @@
-// Replacements for the system in a browser: one thread, one instruction set, no clock, the page's regular expressions.
-// Exceptions end the instance.
+// Replaces the system in a browser: there is one thread, one instruction set and no clock, and regular expressions are
+// those of the page. Exceptions end the instance.
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -14,9 +14,9 @@
 
 #define IMPORT(name) extern "C" __attribute__((import_module("page"), import_name(#name)))
 
-/// Throws a JavaScript error; does not return.
+/// Throws a JavaScript error, and therefore never returns.
 IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const char* message);
-/// Returns 1 if a part of the text matches the expression (ECMAScript grammar).
+/// Returns 1 if the expression (ECMAScript grammar) matches a part of the text, or, if `whole`, the whole text.
 IMPORT(matches) int page_matches(const char* expression, const char* text, int whole);
 
 // The runtime's `throw`. The first base of every exception of mysim and its libraries is std::exception.

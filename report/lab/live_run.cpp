@@ -57,7 +57,7 @@ void LiveRun::start(const Settings& settings) {
 
 void LiveRun::begin() {
   loop_.reset(), world_.reset(), observers_.reset(), ledger_.reset(), monitor_.reset();
-  // within the scene's own duration, the true motion reaches its bounds
+  // these bounds on the true motion hold for the scene's own duration
   const auto bounds = [this](const Scene& scene, const Run&) { return bounds_(scene, default_run(scene)); };
   monitor_ = std::make_unique<DivergenceMonitor>(scene_, run_, bounds);
   std::vector<Observer*> others;
@@ -71,7 +71,7 @@ void LiveRun::begin() {
 }
 
 bool LiveRun::advance(double t, int most) {
-  // t is a sum of steps, and subject to rounding
+  // the loop's time is a sum of steps, and subject to rounding
   const double reached = t - 1e-9 * run_.step;
   for (int i = 0; i < most && !loop_->ended() && loop_->time() < reached; ++i) loop_->step();
   return !loop_->ended();

@@ -64,7 +64,7 @@ std::string quoted(std::string_view text) {
 
 std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
 
-/// Empty if the model lacks the term.
+/// The list of a term; empty if the model lacks the term.
 template <class T>
 auto list_in_term() -> const decltype(T::list)& {
   static const decltype(T::list) none;
@@ -90,7 +90,7 @@ std::vector<Number> of_each(const List& list, const Member& member) {
 
 }  // namespace
 
-/// A buffer of this size (bytes) for the text of the next call.
+/// Returns a buffer of this size (bytes), into which the page writes the text of the next call.
 EXPORT(text_buffer) char* text_buffer(int bytes) {
   instance().text.assign(static_cast<size_t>(bytes), ' ');
   return instance().text.data();
@@ -148,12 +148,12 @@ EXPORT(triangles) const int* triangles() {
 /// Fastest vibration, rad/s.
 EXPORT(omega) double omega() { return run().omega(); }
 
-/// Critical step of the stepper in this row, s; nan if unknown.
+/// Critical step (s) of the stepper in this row of the table; nan if unknown.
 EXPORT(critical_step) double critical_step(int row) {
   return run().critical_step(steppers()[static_cast<size_t>(row)]).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The rule is in the text buffer.
+/// Starts a run. The text buffer contains its rule.
 EXPORT(start) void start(double step, double tolerance, double duration, int keep_ledger) {
   run().start({std::string(instance().text), step, tolerance, duration, keep_ledger != 0});
 }

@@ -1,4 +1,4 @@
-// Replaces std::ifstream for a libc++ without files (WebAssembly, version 19 and later): toml++ mentions it, but the
+// Replaces std::ifstream for a libc++ without files (WebAssembly, version 19 and later): toml++ uses the class, but the
 // module opens no file.
 #pragma once
 

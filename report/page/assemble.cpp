@@ -57,7 +57,7 @@ std::vector<Certificate> certificates_of(const TableSet& rows) {
 
 ReportData read_report(const fs::path& folder) {
   const Verification found = verify_report(folder);
-  // only the data must agree: another version may phrase sentences differently
+  // only the data must agree, because another version may phrase sentences differently
   if (found.of_data > 0)
     throw InputError(fmt::format("{}: its data differ from the report: {}", folder.string(), found.mismatches[0]));
   const JsonField report = JsonField::parse_file((folder / "report.json").string());
@@ -146,7 +146,7 @@ class Assembly {
   WrittenReport write(const Workers& workers) {
     fs::create_directories(figures_);
     write_file(figures_ / "style.gp", asset("figures/style.gp"));
-    // runs of the first screen first, because the page may not have room for all
+    // begin with the runs of the first screen, because the page may be too small for all runs
     for (const ScenePart* part : first_scenes(page_)) add_own_runs(*part);
     for (const ScenePart& part : page_.scenes) add_own_runs(part);
     for (const Chart& chart : charts_) add(chart);
@@ -157,7 +157,7 @@ class Assembly {
                report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
     std::vector<std::pair<std::string, size_t>> blocks;
     write_file(folder_ / "index.html", page_html(page_, &blocks));
-    bool agree = true;  // engines with the same rule agree
+    bool agree = true;  // true if all engines with the same rule agree
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
     return {std::move(page_), std::move(blocks), agree};
@@ -223,7 +223,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// Draws the still picture of the first screen: the runs that move there, and the truth as a separate result.
+  /// Draws the still picture of the first screen: the runs that move there, and a separate picture of the truth.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
@@ -249,7 +249,7 @@ class Assembly {
     }
     const std::vector<PageImage> images = images_of(s);
     if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
-    // one camera for all moments: that of the first, before the run diverges, from a slightly larger distance
+    // all moments have the camera of the first one, before the run diverges, moved back slightly
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, shots.front());
@@ -303,7 +303,7 @@ class Assembly {
   void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
     const std::string marks = part.scene->name + "-speed-accuracy";
-    if (part.take) add_runs(marks, part.take->method);  // a chart adds all runs
+    if (part.take) add_runs(marks, part.take->method);  // if there is a chart of these runs, it already added them
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
       const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
       return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();

@@ -15,16 +15,16 @@ namespace crosscheck {
 enum class Extent { quick, named, full };
 std::string_view name_of(Extent extent);
 
-/// The basis of a report: the tables, notes and failures of experiments.
+/// Content of a report: the tables, notes and failures of experiments.
 struct ReportData {
-  std::vector<Scene> scenes;  // those with a card
+  std::vector<Scene> scenes;  // scenes that have a card
   std::vector<Scene> all;     // scenes of all experiments
   TableSet rows;
   Provenance provenance;
   Extent extent = Extent::quick;
   std::vector<std::string> problems;
   Json runs = Json::array();  // index of recorded runs (report/player/runs.h)
-  bool received = false;      // read from a folder: the programs that it names must not be run
+  bool received = false;      // true: read from a folder, so that the programs that it names must not be run
 
   bool each_has_charts() const { return extent != Extent::quick; }
 };
@@ -35,15 +35,15 @@ ReportData read_report(const std::filesystem::path& folder);
 /// Certificates as a table, which `report --from` reads.
 Table certificate_table(const std::vector<Certificate>& certificates);
 
-/// Computes points, several in parallel. Returns failures.
+/// Computes points, several in parallel. Returns descriptions of failures.
 using Workers = std::function<std::vector<std::string>(const std::vector<Point>&)>;
 
 /// Writes report.json, index.html, and the figures' data and scripts; draws the figures that open a chapter, and
-/// renders missing pictures. The folder must contain data/. `against`: an earlier report, or empty.
+/// renders missing pictures. The folder must contain data/. `against` is the folder of an earlier report, or empty.
 struct WrittenReport {
   PageContent page;
   std::vector<std::pair<std::string, size_t>> blocks;  // size in bytes
-  bool agree;                                          // engines with the same rule agree
+  bool agree;                                          // true if engines with the same rule agree
 };
 WrittenReport write_report(ReportData& data, const std::filesystem::path& folder, const std::filesystem::path& against,
                            const Workers& workers);

@@ -1,4 +1,4 @@
-// Chapters as data: the answer, the opening figures, the explanation, and folds with all else.
+// Data of chapters: the answer, the opening figures, the explanation, and folds with all other content.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,8 @@ namespace {
 
 constexpr size_t most_folds = 6;  // per chapter
 
-/// The part of a name that matches the pattern's star; empty without a star. Nothing if the name does not match.
+/// The part of a name that the pattern's star matches; empty if the pattern has no star. Returns nullopt if the name
+/// does not match.
 std::optional<std::string> starred_part(const std::string& name, const std::string& pattern) {
   const size_t star = pattern.find('*');
   if (star == std::string::npos) return name == pattern ? std::optional("") : std::nullopt;
@@ -41,12 +42,12 @@ std::optional<std::string> starred_part(const std::string& name, const std::stri
 
 struct Lead {
   const Chapter::Entry* entry;
-  size_t figure;       // index in the entry
+  size_t figure;       // index among the figures of the entry
   std::string choice;  // part of the figure's name that matches the pattern's star
   const PageFigure& of() const { return entry->figures[figure]; }
 };
 
-/// Figures of the first pattern that matches any. The main scene's figure comes first.
+/// Figures that match the first pattern that has a match. The main scene's figure comes first.
 std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   for (const std::string& pattern : chapter.leads) {
     std::vector<Lead> leads;
@@ -77,14 +78,14 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
           {"tables", std::move(tables)}};
 }
 
-/// A folded entry. Entries of the same fold are visible one at a time.
+/// A folded entry. Of the entries in the same fold, one is visible at a time.
 struct Folded {
   std::string fold, label;  // heading of the fold, text of the entry's button
-  size_t worth;             // index among the chapter's patterns
+  size_t worth;             // index of its pattern in the list of the chapter
   Chapter::Entry entry;
 };
 
-/// Folded entries, the most important first.
+/// The folded entries, most important first.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
   for (const Chapter::Entry& given : chapter.entries) {
@@ -157,8 +158,8 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
   return all;
 }
 
-/// Data of critical.html: the main scene's numbers in formulas. Null if its limit is unknown. Leapfrog's limit is 2 /
-/// omega with any drag.
+/// Data of critical.html: the main scene's numbers in formulas. Null if the scene's critical step is unknown. The
+/// formula 2 / omega of leapfrog holds with any drag.
 Json critical_data(const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
@@ -184,7 +185,7 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
             {"step_lab", chapter.id == "stability" && !c.lab.empty() ? c.main_scene : ""},
             {"label", text(chapter.label)},
             {"answer", answers_of_chapter(chapter.id, c.findings)},
-            // certificates of few scenes leave room for text below
+            // if there are few scenes, the certificates leave space for text below
             {"short", certificates && leads.empty() && c.scenes.size() <= 4},
             {"parity", certificates ? parity_data(c.scenes) : Json()},
             {"choices", Json::array()},

@@ -26,7 +26,7 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
 
 namespace {
 
-/// Each view's method and its largest error, which the player replaces by the current one.
+/// Method and largest error of each view; the player replaces the largest error by the current one.
 Json readouts_data(const ScenePart& part) {
   const SceneData& facts = *part.facts;
   Json all = Json::array();

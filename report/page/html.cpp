@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string prose_with_bold_numbers(const std::string& text) {
-  // a number that stands alone, with its unit
+  // a number that is not part of a word, with its unit
   static const Pattern number(
       "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
       "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
@@ -62,7 +62,7 @@ Json image_data(const PageImage& image) {
   const render::Image pixels = vectors ? render::Image() : render::read_png(image.file);
   const std::string bytes = vectors ? content_of_file(image.file) : render::webp_bytes(pixels);
   return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "webp", base64(bytes))},
-          {"width", pixels.width},  // reserves space while the page loads
+          {"width", pixels.width},  // lets the browser reserve space while the page loads
           {"height", pixels.height},
           {"alt", image.alt},
           {"caption", image.caption}};

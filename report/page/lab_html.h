@@ -18,10 +18,11 @@ inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 li
 bool has_lab_module();
 std::filesystem::path lab_module_file();
 
-/// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty without a module.
+/// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty if there is no
+/// module.
 Json lab_data(const std::vector<Scene>& scenes);
 
-/// A page with only the lab. Throws InputError with the packages to install if there is no module.
+/// A page that contains only the lab. Throws InputError, which lists the packages to install, if there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);
 
 }  // namespace crosscheck

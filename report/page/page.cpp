@@ -55,7 +55,7 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// The changes since an earlier report; null without one.
+/// The changes since an earlier report; null if none is given.
 Json changes_data(const PageContent& c) {
   if (c.against.empty()) return nullptr;
   int timed = 0;
@@ -94,7 +94,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
                {"certificates", Json::array()},
                {"continuum", Json::array()}});
   if (!part.motions.empty() && !part.runs.empty()) {
-    // compares the recommended run with the first run of another engine
+    // compare the recommended run with the first run of another engine
     const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
@@ -138,7 +138,8 @@ Json words_data(const PageContent& c, Folds& folds) {
 
 std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
 
-/// Data for scripts. Charts that are visible when the page opens, or in print, are plain; the others are packed.
+/// Data for scripts. Charts that are visible when the page opens, or in print, are stored as plain text; others are
+/// packed.
 Json scripts_data(const PageContent& c, const Folds& folds) {
   Json open = Json::object(), folded = c.charts;
   for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);
@@ -238,7 +239,7 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  // one line per entry: one per number would make up most of the file
+  // write one line per entry: with one line per number, line breaks and blanks would be most of the file
   std::vector<std::string> chart_lines, run_lines;
   for (const auto& [name, chart] : page.charts.items())
     chart_lines.push_back(fmt::format("  {}: {}", dump(Json(name)), dump(chart)));

@@ -25,68 +25,68 @@ struct PageImage {
   std::string alt, caption;
 };
 
-/// A chart, drawn by the page (page/chart/), and on paper by gnuplot (files with its name in figures/).
+/// A chart that is drawn in the page by page/chart/, and on paper by gnuplot (files with its name in figures/).
 struct PageFigure {
   std::string name, title, caption;
-  std::string runs = {};  // key of the PlayableRuns that its markers or cells play; empty: none
+  std::string runs = {};  // key of the PlayableRuns that its markers or cells play; empty: they play nothing
 };
 
 /// A set of runs in the player's format.
 struct PlayableRuns {
   std::string key;    // "SCENE-engines", "SCENE-speed-accuracy", "SCENE-stiffness-map"
-  std::string scene;  // scene of the player's data to which the runs belong
-  std::string stage;  // otherwise JSON of a separate stage (report/player/stage.h)
+  std::string scene;  // scene of the player's data to which the runs belong; if empty, `stage` is used
+  std::string stage;  // JSON of a separate stage (report/player/stage.h)
   std::vector<RunFile> files;
 };
 
 struct ShownRun {
-  std::string key;  // method and index among the method's runs in the chart; or "own", at the scene's step
+  std::string key;  // method and index among the method's runs in the chart, or "own" for a run at the scene's step
   std::string method, setting;
   std::optional<double> error, cpu;  // m, s
-  bool beside = false;               // on the first screen, next to others
+  bool beside = false;               // true: on the first screen, next to other runs
   Run run = {};
-  std::string difference = {};  // text: difference from the subject's run, if another engine ran its rule
+  std::string difference = {};  // text on the difference from the subject's run, if another engine ran the same rule
 };
 
 struct ScenePart {
   const Scene* scene;
   const SceneData* facts;
   Findings findings;
-  std::string motions;                    // stage as JSON (report/player/stage.h); empty: only pictures
+  std::string motions;                    // stage as JSON (report/player/stage.h); empty: there are only pictures
   std::filesystem::path thumbnail, hero;  // .png, or empty
   std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;   // statistics of perturbed runs, for scenes with contact
   std::optional<RecommendedRun> take;  // recommended run within 1 %
-  std::vector<ShownRun> runs = {};     // in the small table of its card
+  std::vector<ShownRun> runs = {};     // runs in the small table of the scene's card
 };
 
 /// A chapter answers a question.
 struct Chapter {
   struct Entry {
-    std::string part;  // id of the chart's own chapter, if this chapter joins several
+    std::string part;  // id of the chapter to which the chart belongs, if this chapter joins several
     std::string heading, text;
     std::vector<PageFigure> figures;
     std::vector<PageImage> images;
     std::vector<PageTable> tables;
     bool shown = false;  // not folded
   };
-  /// Figures of one kind in a common fold; one is visible at a time.
+  /// Figures of one kind in a common fold, of which one is visible at a time.
   struct Group {
     std::string figures;  // pattern; "*" matches anything
     std::string heading;
-    bool titled = false;  // chosen by their titles instead of the star's match
+    bool titled = false;  // true: buttons show the figures' titles; false: they show the star's match
   };
   /// A guided experiment (report/page/lab/experiments.ts) and the text of its link.
   struct Experiment {
     std::string name, title;
     bool contact = false;  // requires a scene with a ball
   };
-  std::string id, title = {}, label = {};  // label: in the table of contents
+  std::string id, title = {}, label = {};  // label: title in the table of contents
   std::vector<std::string> joins = {};     // ids of other chapters whose charts it shows
-  std::vector<std::string> leads = {};     // patterns of opening figures: the first that exists
+  std::vector<std::string> leads = {};     // patterns of opening figures; the first pattern with a match counts
   std::vector<std::string> folds = {};     // patterns of other figures, the most important first
-  std::string formula = {};                // HTML template; `teaching` is a template in Markdown
+  std::string formula = {};                // HTML template, unlike `teaching`, which is a template in Markdown
   std::string teaching = {};
   std::vector<Experiment> experiments = {};
   std::vector<Group> groups = {};
@@ -100,30 +100,30 @@ struct PageContent {
   Json charts = Json::object();  // contents of the charts by figure name (report/figures/chart_json.h)
   std::vector<std::string> methods;
   std::vector<RelationRow> relations;
-  std::vector<PlayableRuns> runs;  // runs that figures play
-  Json lab = Json::array();        // the module and its scenes, for the page's end (data.html)
+  std::vector<PlayableRuns> runs;  // runs that the figures can play
+  Json lab = Json::array();        // the module and its scenes, for the end of the page (data.html)
   std::string main_scene;
   std::filesystem::path figures;      // folder of the figures for paper
   std::vector<std::string> notes;     // omissions, with reasons
   std::vector<std::string> problems;  // failures
   std::string against;
-  std::vector<Change> changes;  // since the report `against`
+  std::vector<Change> changes;  // changes since the report `against`
   Provenance provenance;
 };
 
 /// Names of all figures in order; each has the anchor #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
-/// Scenes that move on the first screen: the main scene, and the last cloth with contact.
+/// Scenes with moving pictures on the first screen: the main scene, and the last cloth with contact.
 std::vector<const ScenePart*> first_scenes(const PageContent& content);
-/// True if a figure opens a chapter: it is then also drawn for paper and for readers without scripts.
+/// True if a figure opens a chapter; such figures are also drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
-/// The whole page; `blocks` receives the sizes of its blocks in bytes. Throws std::runtime_error if an image or motion
-/// cannot be read.
+/// Returns the whole page; `blocks` receives the sizes of its blocks in bytes. Throws std::runtime_error if an image or
+/// motion cannot be read.
 std::string page_html(const PageContent& content, std::vector<std::pair<std::string, size_t>>* blocks = nullptr);
 
-/// `bundle` is "app", or "lab_page" for a page with only the lab. Throws std::runtime_error if the script was not
-/// built.
+/// Style sheet and script of the page. `bundle` is "app", or "lab_page" for a page with only the lab. Throws
+/// std::runtime_error if the script was not built.
 std::string page_styles();
 std::string page_script(const std::string& bundle);
 
@@ -133,7 +133,7 @@ std::string prose(const std::string& text);
 std::string prose_with_bold_numbers(const std::string& text);
 /// prose() for narrow columns, where names of methods may break after a slash.
 std::string narrow_prose(const std::string& text);
-/// Paragraphs of Markdown with **bold**, *emphasis* and `code`; keeps HTML.
+/// Converts paragraphs of Markdown with **bold**, *emphasis* and `code` to HTML; keeps HTML.
 std::string markdown_html(const std::string& text);
 /// Escapes JSON for a <script> element.
 std::string json_for_script(const std::string& json);
@@ -142,15 +142,15 @@ std::string readable(std::string text);
 
 /// All chapters in order, without entries (report/page/texts/ID.md).
 std::vector<Chapter> chapters();
-/// True if the chapter shows anything; the first one has the certificates.
+/// True if the chapter is not empty. The first chapter has the certificates.
 bool has_contents(const Chapter& chapter);
 
-/// A page of relations only, with pictures of violations.
+/// A page that contains only relations, with pictures of violations.
 std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
                                 const Provenance& lines);
 
-/// Data of a report: format number; findings with formula, rows and fingerprints; scenes; tables with fingerprints;
-/// figures, notes and problems; index of runs.
+/// Returns the data of a report: format number; findings with formula, rows and fingerprints; scenes; tables with
+/// fingerprints; figures, notes and problems; index of runs.
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
                         const TableSet& result, std::string_view extent, const Json& runs = Json::array());
 

@@ -1,4 +1,4 @@
-// Charts, folds, scene cards, sortable tables, highlighted methods.
+// Makes charts, folds, scene cards, sortable tables and highlighted methods work.
 
 import {drawChart, isDrawn} from './chart/chart';
 import {listRuns} from './player/runs';
@@ -9,9 +9,9 @@ export function startPage() {
   /** Unpacks gzip in base64. */
   const unpacked = (element: HTMLElement) => inflated(element.textContent ?? '').text();
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
-  // other charts are unpacked when the first of them is needed
+  // the other charts are unpacked when one of them is first needed
   const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
-  // Contents of folds and cards may be packed: unpack before searching there.
+  // Contents of folds and cards may be packed; they are unpacked before the page is searched there.
   const held = document.getElementById('held');
   const putBack = held ? unpacked(held).then(text => {
     const all = JSON.parse(text);
@@ -25,11 +25,11 @@ export function startPage() {
   let unpacking: Promise<Record<string, Parameters<typeof drawChart>[1]>>|null = null;
   const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
 
-  // Charts are drawn when they come near the viewport, and again when its width changes.
+  // Charts are drawn when they come near the viewport, and drawn again when its width changes.
 
   const draw = async (box: HTMLElement) => {
     if (!box.clientWidth) return;
-    // no delay: a page that is printed while it opens would not wait for its charts
+    // avoid any delay, because a page that is printed while it opens would not wait for its charts
     const chart = openCharts[box.dataset.chart!] ?? (await others())[box.dataset.chart!];
     if (chart) drawChart(box, chart, methods);
   };
@@ -96,7 +96,7 @@ export function startPage() {
     if (event.key === 'Enter' && at?.dataset?.run) at.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   });
 
-  // Tables can be sorted by a click on a head, filtered by a word, and saved with units in the head.
+  // Tables can be sorted by a click on a column's head, filtered by a word, and saved with units in the heads.
 
   const units:
       Record<string, number> = {m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3, '%': 1};
@@ -223,7 +223,7 @@ export function startPage() {
       ({target}) => target instanceof HTMLDetailsElement && target.matches('.fold') && target.open && unfold(target),
       true);
 
-  // A card opens its scene in place of the open one; the address names it for links and the back button.
+  // A card opens its scene and replaces the open one; the address contains its name for links and the back button.
 
   const open = document.createElement('article');
   open.className = 'open-scene';

@@ -13,7 +13,7 @@ namespace crosscheck {
 /// Contents of folds and cards, packed until the reader opens one (page.ts). Readers without scripts do not see them.
 class Folds {
  public:
-  /// Fills a template with folded content. Returns the number by which the page finds it.
+  /// Fills a template for a fold and stores the result. Returns the index by which the page finds it.
   size_t hold(const std::string& template_name, const Json& data);
   /// Data of fold.html.
   Json fold(const std::string& heading, const std::string& kind, const std::string& template_name, const Json& data,
@@ -24,7 +24,7 @@ class Folds {
   Json held_ = Json::array();
 };
 
-/// Data of image.html and picture.html, with the embedded image. Throws std::runtime_error if it cannot be read.
+/// Data of image.html and picture.html, with the embedded image. Throws std::runtime_error if the image cannot be read.
 Json image_data(const PageImage& image);
 /// Data of figure.html.
 Json figure_data(const PageFigure& figure, const PageContent& page);
@@ -34,15 +34,15 @@ Json findings_data(const Findings& findings);
 /// Data of provenance.html.
 Json provenance_data(const Provenance& lines);
 
-/// Data for scripts: an element in data.html. Its bytes are counted as `block`.
+/// Data for scripts, as an element in data.html. `block` is the block to which its bytes are counted.
 Json data_element(const std::string& block, const std::string& id, const std::string& text,
                   const char* type = "application/json");
 
-/// "mysim leapfrog": the engine's name and the method's name for readers, unique among these methods.
+/// "mysim leapfrog": the engine's name and the method's name for readers, unique among the methods `among`.
 std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among);
 
 Json first_screen_data(const PageContent& content);
-/// " next to Bullet and mine": engines that ran the scenes.
+/// Lists the engines that ran the scenes: " next to Bullet and mine".
 std::string beside_mysim(const PageContent& content);
 
 /// Data of chapter.html for each chapter with contents.
@@ -50,7 +50,8 @@ Json chapters_data(const PageContent& content, Folds& folds);
 /// Figures that are visible without opening a fold.
 std::vector<std::string> figures_in_sight(const PageContent& content);
 
-/// Data of table.html: all runs of a scene; means and deviations over perturbed runs; a recommendation per scene.
+/// Data of table.html: for all runs of a scene; for means and deviations over perturbed runs; for a recommendation per
+/// scene.
 Json run_table_data(const ScenePart& part);
 Json statistics_data(const Table& statistics);
 Json recommendations_data(const std::vector<ScenePart>& scenes);
@@ -58,13 +59,13 @@ Json recommendations_data(const std::vector<ScenePart>& scenes);
 Json methods_data(const std::vector<std::string>& shown);
 /// Data of certificate.html.
 Json certificate_data(const Certificate& certificate);
-/// Data of parity.html: all certificates, with a dot per quantity and scene. Null without certificates.
+/// Data of parity.html: all certificates, with a dot per quantity and scene. Null if there are no certificates.
 Json parity_data(const std::vector<ScenePart>& scenes);
-/// Data of relations.html; null without rows.
+/// Data of relations.html; null if there are no rows.
 Json relations_data(const std::vector<RelationRow>& rows);
 
 Json glossary_data();
-/// Reads a head of "- key: value" lines, then Markdown. Throws std::runtime_error ("ID.md: …").
+/// Reads a text that begins with lines "- key: value", followed by Markdown. Throws std::runtime_error ("ID.md: …").
 Chapter chapter_of_text(const std::string& id, const std::string& text);
 
 }  // namespace crosscheck

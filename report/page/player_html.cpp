@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-/// Size in the page, bytes.
+/// Size (bytes) that a file takes in the page.
 size_t weight_of(const RunFile& file) {
   return (std::filesystem::file_size(file.file) + 2) / 3 * 4 + dump(file.entry).size();
 }
@@ -72,7 +72,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
   PlayableRuns runs{key, "", "", {}};
   for (const RunFile& file : files_)
     if (file.set == key && (only.empty() || file.method == only)) runs.files.push_back(file);
-  // representatives of engines come first
+  // begin with the representatives of engines
   std::ranges::stable_partition(runs.files, [](const RunFile& file) {
     return file.method == "truth" || file.method == family_of(file.method).representative;
   });
@@ -83,7 +83,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
     room_ -= weight;
     return false;
   });
-  if (runs.files.size() < count)  // once: a report that is read again already has the note
+  if (runs.files.size() < count)  // add_once, because a report that is read again already has the note
     add_once(notes, fmt::format("{}: the runs of {} methods are too large for the page to play", key,
                                 count - runs.files.size()));
   if (runs.files.empty()) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
 
 std::vector<Points> PageRuns::seen_in(const Scene& scene) const {
   std::vector<Points> seen;
-  const RunFile* whole = nullptr;  // a representative, otherwise the first
+  const RunFile* whole = nullptr;  // run of a representative, or else the first run
   for (const RunFile& file : files_) {
     if (file.scene != scene.name || file.particles != scene.model.particles.size()) continue;
     if (file.set == scene.name + "-truth") seen = positions_of(file, 0);

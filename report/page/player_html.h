@@ -17,8 +17,8 @@ class PageRuns {
  public:
   explicit PageRuns(std::vector<RunFile> files) : files_(std::move(files)) {}
 
-  /// The set with this key, for one method or all, without scene and stage; nothing if it has no runs. Methods for
-  /// which the page has no room are omitted, with a note.
+  /// The set of runs with this key, without scene and stage: the runs of the method `only`, or, if it is empty, of all
+  /// methods. Runs too large for the page are omitted, with a note. Returns nullopt if no runs remain.
   std::optional<PlayableRuns> take(const std::string& key, const std::string& only, std::vector<std::string>& notes);
   /// Positions that a scene's camera must show: those of the truth and of a completed run.
   std::vector<Points> seen_in(const Scene& scene) const;
@@ -28,7 +28,7 @@ class PageRuns {
   size_t room_ = 5'500'000;  // bytes
 };
 
-/// The stage of a scene, or of the small scene of a map with this key; empty if nothing can be played.
+/// The stage of a scene, or of the small scene of the map with this key; empty if no run can be played.
 std::string stage_of(const Scene& scene, const SceneData& facts, const PageRuns& runs);
 std::string stage_of_map(const std::string& key, const std::vector<Scene>& scenes, bool full);
 

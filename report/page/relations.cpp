@@ -1,4 +1,4 @@
-// Relations as marks, one row per engine; violations with size and cause.
+// Relations as marks, in one row per engine; violations with size and cause.
 
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@
 namespace crosscheck {
 namespace {
 
-/// The mark of a relation over several scenes: the worst one, or "not applicable" if there is no other.
+/// The mark of a relation over several scenes: the worst mark, or "not applicable" if there is no other mark.
 RelationMark worse_mark(RelationMark a, RelationMark b) {
   for (const RelationMark mark : {RelationMark::broken, RelationMark::known, RelationMark::holds})
     if (a == mark || b == mark) return mark;
   return RelationMark::not_applicable;
 }
 
-/// Dots as in parity certificates: full, a ring, a red square.
+/// Class of a dot, with the looks of parity certificates: full, a ring, a red square.
 std::string_view css_class(RelationMark mark) {
   constexpr std::string_view names[] = {"match", "mismatch", "law", "unattested"};
   return names[static_cast<int>(mark)];
@@ -32,7 +32,7 @@ std::string sentence_of_relation(const std::string& name) {
   return relation ? std::string(relation->sentence) : name;  // from another version's report
 }
 
-/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, the time of failure.
+/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, the time at which the run failed.
 std::string size_of_break(const RelationRow& row) {
   std::string text;
   if (row.measured)

@@ -39,7 +39,7 @@ class Chooser {
     for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
     for (const MethodData& m : part_.facts->methods)
       if (family_of(m.method).role == Role::outside) add_own(m.method, true);
-    // for engines whose representative did not run, the subject's method, or another
+    // if no representative of mysim, or none of another engine, ran: take its first method
     for (const bool of_subject : {true, false})
       for (const MethodData& m : part_.facts->methods)
         if (family_of(m.method).is_subject() == of_subject && std::ranges::none_of(chosen_, [&](const ShownRun& run) {
@@ -51,7 +51,7 @@ class Chooser {
       for (const ShownRun& each : charted_)
         if (each.method == take->method && each.run.step == run.step && each.run.tolerance == run.tolerance) add(each);
     }
-    std::vector<ShownRun> best = charted_;  // by cost, one per other method
+    std::vector<ShownRun> best = charted_;  // by cost; one run of each other method
     std::ranges::stable_sort(best, [this](const ShownRun& a, const ShownRun& b) { return better(a, b); });
     std::set<std::string> methods;
     for (const ShownRun& run : chosen_) methods.insert(run.method);
@@ -74,7 +74,8 @@ class Chooser {
       add({method + " own", method, is_adaptive(method) ? "own tolerance" : step_text(m->step),
            m->error ? m->error : m->contact_difference, cost_at(*m), beside, base_, beside ? difference_of(*m) : ""});
   }
-  /// "0.81 mm until 480 ms, 2.8 mm at the end"; empty unless another engine ran the subject's rule.
+  /// "0.81 mm until 480 ms, 2.8 mm at the end"; empty unless the method is another engine's and has the same rule as
+  /// mysim's representative.
   std::string difference_of(const MethodData& m) const {
     if (!is_another_engine(m.method) || !m.same_rule.value_or(false) || !m.difference) return "";
     std::string text = nice_length(*m.difference);
@@ -87,7 +88,7 @@ class Chooser {
         if (row.method == m.method && row.difference) last = row.difference;
     return last ? fmt::format("{}, {} at the end", text, nice_length(*last)) : text;
   }
-  /// Cost of the method's charted run with the same step.
+  /// Cost of the run in the method's chart that has the same step.
   std::optional<double> cost_at(const MethodData& m) const {
     for (const ShownRun& run : charted_)
       if (run.method == m.method && !is_adaptive(m.method) && std::abs(run.run.step / m.step - 1) < 1e-9)

@@ -11,13 +11,13 @@
 namespace crosscheck {
 namespace {
 
-/// An empty text becomes a dash.
+/// Cell of a table. An empty text becomes a dash.
 Json cell(const std::string& text, const std::string& css_class = "") {
   return {{"text", text.empty() ? "–" : text},
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
-          {"note", ""},  // follows the text in grey
-          {"law", ""}};  // the method's different law
+          {"note", ""},  // grey text that follows the cell's text
+          {"law", ""}};  // force law of the method that differs from mysim's
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
   Json made = cell(text, css_class);
@@ -41,7 +41,7 @@ std::string length_text(const std::optional<double>& value, double floor = 0) {
   return !value ? "" : *value < floor ? "< " + nice_length(floor) : nice_length(*value);
 }
 
-/// A clearance, negative inside; round-off counts as zero.
+/// A clearance, which is negative inside the body; round-off counts as zero.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
 Json verdict_cell(const MethodData& m, const SceneData& facts) {
@@ -180,7 +180,7 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
 }
 
 Json recommendations_data(const std::vector<ScenePart>& scenes) {
-  std::vector<std::string> engines;  // without mysim; names the column if it is the only one
+  std::vector<std::string> engines;  // engines except mysim; if there is only one, the column has its name
   for (const ScenePart& part : scenes)
     if (part.take)
       for (const EngineBeside& other : part.take->beside) add_once(engines, other.engine);

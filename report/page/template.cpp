@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Converters of values, by the first word of the tag.
+/// Converters of values to text; the key is the first word of the tag.
 const std::map<std::string, std::string (*)(const std::string&)>& writers() {
   static const std::map<std::string, std::string (*)(const std::string&)> table{
       {"", escaped},
@@ -76,7 +76,7 @@ class Template::Reader {
   }
 
  private:
-  /// Text between braces. If a line contains only a block's tag, removes the line end.
+  /// Returns the text between braces. If a line contains only a block's tag, removes its line end.
   std::string next_tag(int line) {
     const size_t end = text_.find("}}", at_);
     if (end == std::string::npos || end == at_ + 2) template_.fail(line, "a tag without its end or its name");

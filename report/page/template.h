@@ -31,9 +31,9 @@ class Template {
  private:
   struct Part {
     std::string kind;  // "text", "{" for {{{key}}}, or the tag's first word: "", "prose", "#each", ">"
-    std::string key;   // key, text, or name of another template
+    std::string key;   // key, literal text, or name of another template
     int line;
-    std::string item = {};  // key of the other template's data
+    std::string item = {};  // key of the data passed to the other template
     std::vector<Part> inside = {}, otherwise = {};
   };
   class Reader;

@@ -22,7 +22,7 @@ function inPowers(value: number): string {
 }
 
 const prefixes: [string, number][] = [['', 1], ['m', 1e-3], ['µ', 1e-6], ['n', 1e-9], ['p', 1e-12]];
-const scalable = ['s', 'm', 'J', 'N'];  // units with smaller prefixes
+const scalable = ['s', 'm', 'J', 'N'];  // units to which prefixes for small values apply
 
 /** Value with its unit, at most three digits: "1.5 ms", "30 %", "10⁻⁷". */
 export function nice(value: number, unit = ''): string {
@@ -45,7 +45,7 @@ export interface Axis {
   ticks: Tick[];
   title: string;
   unit: string;
-  size: number;  // in the spec's unit
+  size: number;  // in the unit of the spec
   low: number;
   high: number;
 }

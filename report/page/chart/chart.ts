@@ -57,7 +57,7 @@ export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   if (before === undefined) box.addEventListener('keydown', walk);
   drawnWidths.set(box, width);
   measureFont();
-  // the page chose the colours of user programs
+  // the colours of user programs are chosen by the page
   const sheet = layout(chart, width, part => {
     const look = looks[part.method ?? '']?.colour ?? '';
     return css(/^outside\d/.test(look) ? look : part.colour);

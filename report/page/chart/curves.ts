@@ -10,7 +10,7 @@ interface Placed {
   part: PartSpec;
   index: number;
   colour: string;
-  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: sections of its line within the axes
+  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: sections of the line within the axes
   crosses: Pair[];
 }
 
@@ -41,7 +41,7 @@ class CurvesLayout {
   private readonly board: Board;
   private readonly column = new Set<PartSpec>();  // parts with labels to the right of the plot
   private readonly height: number;
-  private readonly marksLower: boolean;  // marks below the axis are drawn on it, as triangles
+  private readonly marksLower: boolean;  // true: marks below the axis are drawn on the axis, as triangles
 
   constructor(private readonly chart: CurvesSpec, private readonly width: number, private readonly colours: Colours) {
     this.marksLower = chart.key.some(entry => entry.mark === 'down');
@@ -50,7 +50,7 @@ class CurvesLayout {
     const above: Element[] = [], keyHigh = key(above, this.keyEntries(), 0, lineHeight * titles + 4, width);
     const upright = axisOf(chart.y, high, 0, 38), left = Math.ceil(12 + widthOfTicks(upright));
     const right = this.chooseColumn();
-    // rows of crosses are along the top
+    // rows of crosses are placed along the top
     const level = axisOf(chart.x, left, right, 70);
     const {rows, count} = rowsOf(chart.parts.map(part => part.failures.map(f => level.at(f.x))));
     const head = lineHeight * titles + keyHigh + 8, top = head + (count ? strip * count + 8 : 4), bottom = top + high;
@@ -172,7 +172,7 @@ class CurvesLayout {
         const place: Pair = [this.x.at(px), Math.min(this.frame.bottom, y.at(py))];
         if (stairs.length) stairs.push([place[0], stairs[stairs.length - 1][1]]);
         stairs.push(place);
-        if (isBelow(py, y.low)) break;  // down to the axis, not along it
+        if (isBelow(py, y.low)) break;  // the stairs end at the axis, and do not follow it
       }
       elements.push(element('path', {class: 'pareto', d: pathOf(stairs)}));
       board.addLine(stairs, true);

@@ -15,7 +15,7 @@ function spanOf(values: readonly number[]): [number, number, number] {
 }
 
 export function map(chart: MapSpec, width: number): Sheet {
-  // a sentence describes panels of a single colour
+  // panels of a single colour are described by a sentence instead
   const plain = chart.panels.filter(panel => new Set(panel.cells.map(c => c[2])).size === 1), {kinds} = chart;
   const panels =
       plain.length < chart.panels.length ? chart.panels.filter(panel => !plain.includes(panel)) : chart.panels;
@@ -25,7 +25,7 @@ export function map(chart: MapSpec, width: number): Sheet {
   });
   const columns = Math.max(1, Math.min(3, Math.floor(width / 280), panels.length)),
         rows = Math.ceil(panels.length / columns);
-  // common axes, but cells of different sizes
+  // the panels share axes, but their cells differ in size
   const spans = panels.map(panel => [spanOf(panel.cells.map(c => c[0])), spanOf(panel.cells.map(c => c[1]))]);
   const whole = (spec: AxisSpec, i: number): AxisSpec => ({
     ...spec,

@@ -163,7 +163,7 @@ export function limits(chart: LimitsSpec, width: number, colours: Colours): Shee
       const shift = row.marks.length < 2 ? 0 : (tall + 4) * (i / (row.marks.length - 1) - 0.5);
       add(mark(sceneMarks[scene % 4], [axis.at(measured), y + shift], 3.4, false, {words}));
     });
-    // next to the bar, inside it, or on narrow screens after the name
+    // the words are next to the bar, inside it, or, on narrow screens, after the name
     const far = axis.at(Math.max(row.held, ...row.marks.map(m => Math.max(m[1], m[2] ?? 0)))),
           first = left + widthOf(row.name, true) + 12;
     const words = narrow && first + widthOf(row.words) > width ? row.words.split(';')[0] : row.words;

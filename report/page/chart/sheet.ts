@@ -162,7 +162,7 @@ export const css = (colour: string) =>
 
 export interface KeyEntry {
   text: string;
-  sample: (x: number, y: number) => Element;  // (x, y): centre; x starts 9 px from the left
+  sample: (x: number, y: number) => Element;  // (x, y): centre; x begins 9 px from the left
   method?: string;
 }
 

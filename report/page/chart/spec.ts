@@ -40,9 +40,9 @@ export interface SeriesSpec extends MarkSpec {
   title: string;
   line?: boolean;
   dash?: string;  // dashes and gaps, in line widths
-  few?: boolean;  // few marks, to distinguish lines
+  few?: boolean;  // true: few marks, to distinguish lines
   points: Pair[];
-  scaled?: number[];  // 1: time scaled, open mark
+  scaled?: number[];  // 1: the time is scaled, and the mark is open
   tips?: Tip[];
 }
 
@@ -51,7 +51,7 @@ export type FailureSpec = MarkSpec&Tip&{x: number, kind: string};
 export interface PartSpec extends Named {
   colour: string;   // name in style.css, or #RRGGBB
   hero?: boolean;   // coloured and labelled; others are grey until the reader points at them
-  keyed?: boolean;  // named in the key
+  keyed?: boolean;  // true: named in the key
   series: SeriesSpec[];
   failures: FailureSpec[];
 }

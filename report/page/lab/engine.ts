@@ -1,4 +1,4 @@
-// mysim in the page: the WebAssembly module (module.cpp), with an instance per scene and run.
+// mysim in the page: the WebAssembly module (module.cpp), of which each scene with its run has an instance.
 
 import {inflated} from '../player/unpack';
 import {Vec3} from '../player/vectors';
@@ -44,7 +44,7 @@ interface SceneHead {
 }
 export interface EngineScene extends SceneHead {
   pins: Int32Array;
-  springs: Int32Array;  // both ends of each
+  springs: Int32Array;  // indices of both ends of each spring
   constraints: Int32Array;
   constraintLengths: Float64Array;  // m
   families: Int32Array;
@@ -84,7 +84,7 @@ export const labModule = (() => {
     try {
       return new Lab(await WebAssembly.compile(await inflated(JSON.parse(packed.textContent)).arrayBuffer()));
     } catch {
-      return null;  // SIMD is missing, or WebAssembly disabled
+      return null;  // the browser lacks SIMD, or WebAssembly is disabled
     }
   };
   return () => (compiled ??= compile());
@@ -119,7 +119,8 @@ class Instance {
     new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  // `at` is evaluated before the buffer: a call may grow the memory, which detaches the old buffer.
+  // `at` is an argument, hence computed before the buffer is read: a call may grow the memory, which detaches the old
+  // buffer
   doubles(at: number, count: number) { return new Float64Array(this.calls.memory.buffer, at, count); }
   integers(at: number, count: number) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
@@ -155,7 +156,7 @@ function longestOne(arrows: Float64Array) {
 export class Simulation {
   readonly scene: EngineScene;
   byHand = false;
-  begun: Start|null = null;  // start of the run since the last change by hand
+  begun: Start|null = null;  // parameters of the last start, reset by a change by hand
   private readonly instance: Instance;
   private broken = false;
   private failure: (Outcome&{t: number})|null = null;
@@ -229,7 +230,7 @@ export class Simulation {
   /** Steps until t (s), or for at most `budget` ms of computing. Returns true while the run goes on. */
   advance(t: number, budget = Infinity) {
     const until = performance.now() + budget;
-    let most = 1;  // steps until the clock is read again
+    let most = 1;  // number of steps until the clock is read again
     try {
       while (this.going && this.t < t - 1e-9 * this.run.step) {
         const begin = performance.now();

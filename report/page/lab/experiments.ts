@@ -1,5 +1,5 @@
-// Guided experiments: for each step the lab's states, the condition of completion, and the numbers of its explanation,
-// which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
+// Guided experiments: for each step, the states of the lab, the condition of completion, and the numbers of its
+// explanation, which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
 
 import {Places} from '../player/vectors';
 
@@ -17,7 +17,7 @@ interface RunReading {
   ended: boolean;
   failed: boolean;
   energy: Energies|null;
-  gain: number;     // energy gained without a source, J; NaN: unknown
+  gain: number;     // J, energy gained although there is no source; NaN: unknown
   x: Float64Array;  // positions, m
   sim: Simulation;
 }
@@ -74,17 +74,17 @@ export interface GuideStep {
   name: string;
   choices?: string[];
   right?: string;
-  guess?: {unit: string, within: number, read: (r: Reading) => number};  // a number instead of choices
-  start: GuideState;                                                     // next to the question
-  then?: Wanted;                                                         // after the guess; default: start
-  acts?: Wanted[];  // states that do the task for the reader, until each ends or is `enough`
+  guess?: {unit: string, within: number, read: (r: Reading) => number};  // asks for a number, not for a choice
+  start: GuideState;                                                     // state while the question is shown
+  then?: Wanted;                                                         // state after the guess; default: start
+  acts?: Wanted[];  // states that do the task for the reader; each lasts until its run ends or is `enough`
   enough?: (r: Reading) => boolean;
   watch?: (r: Reading, seen: Seen) => void;  // records observations
   done: (r: Reading, seen: Seen) => boolean;
-  // further numbers for its texts
-  shown?: (before: Before) => Values;           // for question and task
+  // further numbers for the texts of the step
+  shown?: (before: Before) => Values;           // for its question and task
   values?: (r: Reading, seen: Seen) => Values;  // for the explanation
-  arrows?: (r: Reading) => Mode;                // motion to show at the end
+  arrows?: (r: Reading) => Mode;                // motion that is shown at the end
 }
 
 export interface GuideExperiment {
@@ -169,7 +169,7 @@ const nearest = (seen: Memory, name: string, value: number) => {
 /** Distance of the first particle from its initial position, m. */
 const movedBy = (r: Reading, {x}: RunReading) => Math.hypot(...r.vector('particle.position').map((c, k) => x[k] - c));
 
-// States: changed numbers of a scene, and methods. `time.samples = 1` allows any step.
+// States of the lab: changed numbers of a scene, and methods. `time.samples = 1` allows any step.
 
 type Row = [method: string, step: number];
 const state = (scene: string, numbers: Changes, ...methods: Row[]): GuideState =>

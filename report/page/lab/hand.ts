@@ -51,7 +51,7 @@ export class Hand {
       const hit = this.hit(event);
       if (hit) act.pin(hit.particle);
     });
-    // touches of a particle, or by two fingers, do not scroll the page
+    // a touch of a particle, or by two fingers, must not scroll the page
     layer.addEventListener('touchstart', event => {
       if (event.touches.length > 1 || this.hit(event.touches[0], 'touch')) event.preventDefault();
     }, {passive: false});
@@ -194,7 +194,7 @@ export class Hand {
       r: () => this.act.restart(),
     };
     const act = turned ? () => (turned(), this.act.draw()) : keys[event.key];
-    // without a chosen particle, Escape is left to the page, which closes windows
+    // if no particle is chosen, leave Escape to the page, which closes windows
     if (!act || (event.key === 'Escape' && this.chosen === null)) return;
     event.preventDefault();
     event.stopPropagation();

@@ -10,7 +10,7 @@ import {labLanguage, labWords, say} from './words';
 /** Ranges are relative to the scene's own value. */
 interface KnobRow {
   path: string;
-  scales?: string[];  // subpaths that are scaled together
+  scales?: string[];  // subpaths whose numbers are scaled together
   word: string;
   unit: string;
   from?: number;
@@ -231,7 +231,7 @@ export class MethodKnobs {
   private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
     if (!stepper) return;
-    // keep other options, +events or +linear, with their stepper
+    // keep other options (+events, +linear) only with the stepper to which they belong
     const [name, ...options] = this.spec.method.split('+');
     const kept = this.sticky.checked && this.solids ? ['sticky'] :
         name === stepper.name                       ? options.filter(option => option !== 'sticky') :
@@ -246,7 +246,7 @@ export class MethodKnobs {
     const h = run.refusal ? 0 : run.sim.h;
     const stepper = steppers.find(s => s.name === name), interval = scene.duration / scene.samples;
     const known = limit !== null && Number.isFinite(limit) && limit > 0;
-    const bound = known && limit <= interval;  // steps do not exceed the sampling interval
+    const bound = known && limit <= interval;  // steps never exceed the sampling interval
     Object.assign(this, {spec, steppers, own: scene.step, solids: solidsOf(scene)});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
     if (this.select.childElementCount !== usable.length)

@@ -1,7 +1,7 @@
 // <live-lab>: mysim in the page, next to the truth. Nothing is laid out, compiled or computed before the lab is opened
 // by its button, an address, or openLab(). With data-part="step", it shows only the picture and the step's slider, and
-// opens when it becomes visible. Its state is a scene's text (TOML), one or two methods with a step or tolerance each,
-// and a look. Sliders change numbers in the text; then the runs restart.
+// opens when it becomes visible. Its state consists of a scene's text (TOML), one or two methods with a step or
+// tolerance each, and a look. Sliders change numbers in the text, and then the runs restart.
 
 import {make, short} from '../player/controls';
 import {dark, startsWebGl, stillWanted} from '../player/player';
@@ -19,22 +19,22 @@ import {LiveRun, messageOf} from './live_run';
 import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
 import {labLanguage, questionInLanguage, say} from './words';
 
-const longestFrame = 120;  // ms; upper bound for budgets if drawing is slow
-const pauseAtEnd = 1200;   // ms, before a looping run restarts
+const longestFrame = 120;  // ms; frames count as no longer than this
+const pauseAtEnd = 1200;   // ms, pause before a looping run restarts
 
 export class LiveLab extends LabPicture {
   link = '';                                             // last copied link
-  waiting: {particle: number, place: Vec3}|null = null;  // move for the next frame
+  waiting: {particle: number, place: Vec3}|null = null;  // pending move of a particle, applied in the next frame
   private opening: Promise<boolean>|null = null;
-  private source: LiveRun|null = null;  // run that the hand holds
-  private loops = false;                // restart at the end, until the reader acts
+  private source: LiveRun|null = null;  // the run whose particle is held
+  private loops = false;                // true: restart at the end, until the reader does something
   private again = 0;                    // timers
   private later = 0;
   private asked = false;
   private lastFrame: number|null = null;
   private told = 0;
   private frames: number[] = [];
-  private average: number|null = null;  // ms of computing per frame
+  private average: number|null = null;  // ms of computation per frame
 
   get alone() { return this.dataset.alone !== undefined; }
   get isPart() { return this.dataset.part !== undefined; }
@@ -69,7 +69,7 @@ export class LiveLab extends LabPicture {
   async open(state?: LabState) {
     if (this.view) return this.setState(state ?? {});
     this.opening ??= this.begin();
-    if (!await this.opening || (!state && this.sceneName)) return;  // a state was set meanwhile
+    if (!await this.opening || (!state && this.sceneName)) return;  // another state was set meanwhile
     this.loops = !state && !stillWanted.matches;
     const names = Object.keys(labScenes()),
           own = this.dataset.scene || (names.includes('cloth-hang') ? 'cloth-hang' : names[0]);
@@ -248,7 +248,7 @@ export class LiveLab extends LabPicture {
     this.asked = false;
     if (!this.isConnected || !this.view || !this.runs.length) return;
     const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
-    const passed = Math.min(0.1, apart / 1000);  // pauses while the page is hidden
+    const passed = Math.min(0.1, apart / 1000);  // limited, because frames stop while the page is hidden
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     this.frames = this.playing ? [...this.frames.filter(time => time >= now - 1000), now] : [];
@@ -572,7 +572,7 @@ export class LiveLab extends LabPicture {
     view.setTime(this.clock, this.end, this.byHand);
     if (!all && now - this.told < 110) return;
     this.told = now;
-    // curves end at the last failure
+    // if all runs failed, the curves end at the last failure
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
     view.plots.show(runs, over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
     if (this.look.colour === 'error') this.showLook();

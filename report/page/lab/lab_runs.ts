@@ -7,13 +7,13 @@ import {Growth} from './live_stage';
 import {MethodSpec, numberAt, textAt} from './scene_text';
 import {say} from './words';
 
-const computingBudget = 0.5;      // fraction of a frame's time, for all methods
+const computingBudget = 0.5;      // fraction of a frame's time, for all methods together
 const truthBudget = 0.45;         // fraction of a frame's time
 export const shortestFrame = 17;  // ms
 const slowestPace = 0.1;          // minimum clock rate while waiting for the truth
-const longestWait = 2500;         // ms of waiting for the truth
-export const smallScene = 1500;   // particles; larger scenes have no truth and no energy balance
-const beginsRuns = 200;           // ms after a slider moved until a truth is started
+const longestWait = 2500;         // ms that the clock waits for the truth
+export const smallScene = 1500;   // number of particles; larger scenes have no truth and no energy balance
+const beginsRuns = 200;           // ms from the last move of a slider to the start of a truth
 
 /** Shipped texts of the page's scenes, by name. */
 export const labScenes = (() => {
@@ -30,7 +30,7 @@ export abstract class LabRuns extends HTMLElement {
   runs: LiveRun[] = [];
   sceneName = '';
   toml = '';
-  original = '';  // text with which changes are compared
+  original = '';  // scene text before changes
   good = '';      // last valid text
   methods: MethodSpec[]|null = null;
   clock = 0;  // s
@@ -44,12 +44,12 @@ export abstract class LabRuns extends HTMLElement {
   growth: Growth|null = null;                    // growing mode of a failed run
   pending = false;                               // true while the clock waits for the truth
   pace = 1;
-  late = 0;               // ms of waiting for the truth
+  late = 0;               // ms that the clock has waited for the truth
   passed: number[] = [];  // actual / requested clock rates
   frameTime = shortestFrame;
-  scale: number|null = null;  // critical step of the scene as opened, s
-  private slow = 0;           // ms at the slowest pace
-  private settled = 0;        // when sliders count as at rest
+  scale: number|null = null;  // s, critical step of the scene as it was opened
+  private slow = 0;           // ms spent at the slowest pace
+  private settled = 0;        // time from which sliders count as at rest
 
   /** Called after runs were opened; `fresh`: for another scene. */
   protected abstract opened(fresh: boolean): void;
@@ -120,7 +120,7 @@ export abstract class LabRuns extends HTMLElement {
       const truth = new Truth(this.lab, toml, run, solidsOf(run.sim.scene) > 0);
       if (truth.known) this.truth = truth;
     } catch {
-      // no truth for a state that cannot be read again
+      // the engine's text of the state cannot be read again
     }
     if (!this.truth) this.truthGone = 'none';
     this.late = 0;
@@ -158,7 +158,7 @@ export abstract class LabRuns extends HTMLElement {
    * clock wait for it, and from then on, for a limited time, slows the clock down.
    */
   sample() {
-    // no truth is needed at the start, and none is started while a slider moves
+    // at the start no truth is needed; while a slider moves, none is started
     const free = !this.hand.held && this.clock > 0 && performance.now() > this.settled;
     if (free) this.findTruth();
     const begin = performance.now(), truth = free ? this.truth : null;

@@ -1,4 +1,4 @@
-// Picture, controls and texts of the lab; lab.ts has their behaviour.
+// Picture, controls and texts of the lab; lab.ts defines what they do.
 
 import {Look, rampOf, rgb} from '../player/colours';
 import {check, dropdown, make} from '../player/controls';
@@ -12,7 +12,7 @@ import {LiveRun} from './live_run';
 import {Changes, MethodSpec} from './scene_text';
 import {labLanguage, labWords, say, setLabLanguage} from './words';
 
-export const titleHeight = 26;  // CSS pixels, for overlaid methods
+export const titleHeight = 26;  // CSS pixels, when methods are drawn over each other
 
 /** Colours of a run, and the dash of its curves. */
 export type RunLook = Look&{dash: string};
@@ -102,7 +102,7 @@ export class LabView {
   private readonly prompt: HTMLElement = make('p', {class: 'prompt'});
   private readonly otherPlots: HTMLDetailsElement = make('details', {class: 'other-plots'});
   private methods: MethodKnobs[] = [];
-  // rebuilt for another language
+  // made again for another language
   sceneChoice!: HTMLSelectElement;
   particle!: HTMLElement;
   pin!: HTMLElement;

@@ -76,14 +76,14 @@ export class LiveRun {
   samples: Sample[] = [];
   trail: Vec3[] = [];  // path of the last particle
   bursting = false;
-  shown = false;                 // the failure was shown
+  shown = false;                 // true once the failure has been shown
   offset = 0;                    // s, time at which the engine's clock was 0
   since = 0;                     // s, time of the last change by hand
-  last = 0;                      // ms of computing in the last frame
+  last = 0;                      // ms of computation in the last frame
   handWork: number|null = null;  // J, work done by the hand
   refusal: string|null = null;
   fault: string|null = null;
-  first: Energies|null = null;  // start of the energy balance
+  first: Energies|null = null;  // energies at the start of the energy balance
   private readonly observe: boolean;
   private recent: Float64Array[] = [];
   private lost = 0;
@@ -91,7 +91,7 @@ export class LiveRun {
   private stepped = 0;  // s
   private scale = 0;    // J
   private trails = false;
-  private past = false;  // beyond the critical step
+  private past = false;  // true: the step exceeds the critical step
 
   /**
    * Throws LabError if the scene cannot be read. If the engine refuses the method, sets `refusal` instead. `observe`
@@ -151,7 +151,7 @@ export class LiveRun {
     const goes = () => !sim.ended && sim.t < aim && performance.now() - begin < budget;
     if (sim.t >= aim) return true;
     try {
-      // beyond the critical step, observe each step: a quick failure shows a single step per frame
+      // beyond the critical step, observe each step, and show a quick failure one step per frame
       if (this.past) {
         while (goes()) {
           sim.advance(sim.t + 0.5 * h, budget);
@@ -162,7 +162,7 @@ export class LiveRun {
           if (this.bursting) break;
         }
       } else if (this.trails) {
-        // small scenes leave a trail with times of its own
+        // points on the trail of a small scene have times of their own
         const piece = sim.scene.duration / (trailPoints - 1);
         for (let to = sim.t + piece; goes(); to = Math.max(to, sim.t) + piece) {
           sim.advance(Math.min(aim, to), budget);
@@ -187,7 +187,7 @@ export class LiveRun {
     this.places.set(positions);
     this.recent.push(positions.slice());
     if (this.recent.length > 24) this.recent.shift();
-    // points are at equal time intervals
+    // the points of a trail are at equal time intervals
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1))
       this.trail.push(placeOf(positions, positions.length / 3 - 1));
   }
@@ -265,14 +265,14 @@ class Follower {
     const {sim} = this, h = this.step, begin = performance.now(), from = this.now.t;
     const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
     if (this.now.t < time - tiny) {
-      // up to the last step before the time, then beyond it
+      // advance to the last step before `time`, then beyond `time`
       if (this.now.t < time - h - tiny) sim.advance(time - this.offset - h - tiny, budget);
       this.before = this.state();
       if (!sim.ended && this.before.t < time - tiny && left() > 0) sim.advance(time - this.offset - tiny, left());
       this.now = this.before.t < time - tiny ? this.state() : this.before;
     }
     this.spent += performance.now() - begin, this.stepped += this.now.t - from;
-    // earlier states are not kept
+    // earlier states are not available
     if (this.now.t < time - tiny || (this.before && time < this.before.t - tiny)) return null;
     return between(this.before ?? this.now, this.now, time, this.out);
   }
@@ -289,9 +289,9 @@ class Follower {
  */
 export class Truth {
   spec: MethodSpec = {method: ''};
-  same = false;  // the run's own stepper with a shorter step
+  same = false;  // true: the truth uses the run's own stepper, with a shorter step
   readonly followers: Follower[] = [];
-  private readonly whole: boolean;  // the whole difference is the error bar
+  private readonly whole: boolean;  // true: the error bar is the whole difference
 
   constructor(lab: Lab, toml: string, run: LiveRun, contact: boolean) {
     const {offset, step, sim, spec: {method}} = run;

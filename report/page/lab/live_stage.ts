@@ -21,7 +21,7 @@ export const trailPoints = 600;
 export function stageScene(name: string, {scene}: Simulation, floor: number|null, from: Numbers): StageScene&
     {shared: SharedGeometry} {
   const names = ['single', 'structural', 'shear', 'bend'], ranks = [1, 0, 2, 3];
-  // distance constraints, then springs by family, with the threads first
+  // order: distance constraints, then springs by family, of which threads come first
   const order = [...scene.families.keys()];
   order.sort((a, b) => ranks[scene.families[a]] - ranks[scene.families[b]] || a - b);
   const hard = scene.constraintLengths.length, families = hard ? [{name: 'hard distance', count: hard}] : [];
@@ -74,13 +74,13 @@ export interface Growth {
 export interface LiveShown extends Omit<Shown, 'colour'> {
   over: boolean;
   colour: Omit<Colouring, 'from'>&{from: Places | null};
-  centres: Numbers;  // centres of the spheres, m
+  centres: Numbers;  // m, centres of the spheres
   growth: Growth|null;
   marked: {particle: number, held: boolean}|null;
 }
 
 export class LiveStage extends BaseStage<LivePanel> {
-  made = '';  // element counts for which the stage was made
+  made = '';  // numbers of elements for which the stage was made
   aspect = 1;
   boxes: PanelPlace[] = [];  // pictures without titles, CSS pixels
   moving = false;
@@ -166,7 +166,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     if (panel.gone > trail.length) panel.gone = 0;
     for (; panel.gone < Math.min(trail.length, trailPoints - 1); ++panel.gone)
       way.data.set([...trail[panel.gone], -1], 4 * panel.gone);
-    // from the last stored point to the particle
+    // the last piece, from the last stored point to the particle
     way.data.set([...placeOf(places, places.length / 3 - 1), -1], 4 * panel.gone);
     this.tools.fill(way);
   }
@@ -193,7 +193,7 @@ export class LiveStage extends BaseStage<LivePanel> {
   /** Moves the camera smoothly to a new target, or at once if there was none. */
   private eased(fit: Fit) {
     const was = this.fit, part = 0.12;
-    // a picture of another shape is a new view
+    // if the picture changes its shape, treat it as a new view
     const {clientWidth, clientHeight} = this.canvas, shape = `${clientWidth} ${clientHeight} ${this.panels.length}`;
     const other = !was || stillWanted.matches || this.shape !== shape;
     this.shape = shape;

@@ -18,9 +18,9 @@ interface NumberEntry {
   section: string;
   value: Value;
   line: number;
-  begin: number;  // columns of the value
+  begin: number;  // columns at which the value begins and ends
   end: number;
-  out: boolean;  // the line is commented out
+  out: boolean;  // true: the line is commented out
 }
 
 /** Marks a number that must be positive but was set to zero: its line is commented out, and can be restored. */
@@ -82,7 +82,7 @@ function withNumber(toml: string, path: string, value: Value) {
     else if (zero === 'line')
       lines[line] = leave(lines[line]);
     if (zero !== 'section') continue;
-    // a section extends to the next head
+    // a section extends to the next line with a section's name
     let first = line, last = line;
     const isHead = (text: string) => /^\s*\[/.test(bring(text));
     while (first > 0 && !isHead(lines[first])) --first;

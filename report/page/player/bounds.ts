@@ -17,7 +17,7 @@ export interface Bounds {
   key: Vec3;         // towards the light
   size: number;      // m, diagonal of the box around the bodies
   middle: Vec3;
-  reach: number;  // m, radius of the ball around them
+  reach: number;  // m, radius of the ball around the bodies
 }
 
 /** Direction towards the key light, which is to the left behind the viewer. */

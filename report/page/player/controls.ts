@@ -170,7 +170,7 @@ export class Controls {
     this.slider.addEventListener(
         'input', () => act.seek(this.begin + Number(this.slider.value) / 300 * (this.end - this.begin)));
     this.colour = colour, this.springs = springs;
-    this.addPlots(act.pick ? 3 : 0);  // reserves space until they are drawn
+    this.addPlots(act.pick ? 3 : 0);  // reserves space until the plots are drawn
     speed.addEventListener('change', () => act.speed(Number(speed.value)));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
     springs.addEventListener('change', () => act.look({springs: springs.checked}));

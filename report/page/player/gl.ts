@@ -40,7 +40,7 @@ export class Gl {
     this.gl = gl;
   }
 
-  // A lost context creates nulls, which are passed on, and draws nothing.
+  // After the context is lost, WebGL creates nulls. They are passed on, and nothing is drawn.
 
   program(vertex: string, fragment: string, define = ''): Program {
     const gl = this.gl, program = gl.createProgram()!;
@@ -53,7 +53,7 @@ export class Gl {
     }
     ['corner', 'which', 'ends'].forEach((name, i) => gl.bindAttribLocation(program, i, name));
     gl.linkProgram(program);
-    // without this check, an error leaves a blank canvas and no message
+    // without this check, an error would leave a blank canvas and no message
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error([
         gl.getProgramInfoLog(program), ...(gl.getAttachedShaders(program) ?? []).map(s => gl.getShaderInfoLog(s))

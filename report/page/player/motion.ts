@@ -12,7 +12,7 @@ export interface Run {
   failed?: number;  // s
   reason?: string;
   frames: number;
-  times: (number|null)[];  // s, of all frames, or the first and the last
+  times: (number|null)[];  // s, times of all frames, or only the first and the last
   last_pictures?: boolean;
   low: number[];  // m
   unit: number;   // m

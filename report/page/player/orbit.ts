@@ -1,4 +1,4 @@
-// The camera of all panels turns about a point, at a distance from which everything is visible.
+// Camera of all panels, which turns about a point at a distance from which everything is visible.
 
 import {cross, dot, minus, norm, Numbers, perspective, plus, times, toEye, Vec3} from './vectors';
 

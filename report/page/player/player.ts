@@ -1,4 +1,5 @@
-// <motion-player>: runs of a scene in lock-step, in a canvas over the poster. Without WebGL2, the poster stays.
+// <motion-player>: plays runs of a scene in lock-step, in a canvas over the poster. Without WebGL2, only the poster is
+// shown.
 
 import {Acts, Controls, inTwo, length, Look, make, roundUp, settingOf, short} from './controls';
 import {Orbit} from './orbit';
@@ -10,7 +11,7 @@ import {lookOf} from './colours';
 import {noContext} from './gl';
 import {unpack} from './unpack';
 
-export const mostStages = 3;  // scenes drawn at a time, because browsers allow few contexts
+export const mostStages = 3;  // scenes drawn at a time; limited, because browsers allow few contexts
 export const alive: MotionPlayer[] = [];
 
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
@@ -75,7 +76,7 @@ const seriesOf = ({motion, letter, look}: PlayerView, list: (number|null)[], das
 });
 
 export class MotionPlayer extends HTMLElement {
-  given?: {scene: SceneStage, motion: Motion, caption: string};  // last picture of a map's cell
+  given?: {scene: SceneStage, motion: Motion, caption: string};  // the last pictures of a run in a map's cell
   scene!: SceneStage;
   picks: {a: string, b: string}|null = null;  // keys of the compared runs
   hero: string[]|null = null;                 // keys of the runs on the first screen
@@ -87,8 +88,8 @@ export class MotionPlayer extends HTMLElement {
   time = 0;  // s
   begin = 0;
   end = 0;
-  settled = Infinity;  // s; from then on all kinetic energies are below 2 % of their maximum
-  top = 0;             // m, top of the difference scale; 0: below the resolution
+  settled = Infinity;  // s; after this time all kinetic energies stay below 2 % of their maximum
+  top = 0;             // m, top of the scale of differences; 0: they are not resolved
   seen = false;
   private controls: typeof noControls = noControls;
   private orbit!: Orbit;
@@ -147,7 +148,7 @@ export class MotionPlayer extends HTMLElement {
       this.pause();
       return;
     }
-    // with reduced motion, the poster stays until a control is used
+    // if the reader prefers reduced motion, the poster stays until a control is used
     if (stillWanted.matches && !this.dataset.state) return;
     await this.wake();
     if (this.seen && !stillWanted.matches && !this.dataset.shown && (this.resume ?? true)) this.play();
@@ -196,7 +197,7 @@ export class MotionPlayer extends HTMLElement {
     const turn = this.turn = {};
     const motions = this.given ? [this.given.motion] : await Promise.all(keys.map(key => motionOf(this.scene, key)));
     const truth = this.picks && await motionOf(this.scene, 'truth');
-    if (turn !== this.turn) return;  // other runs were chosen meanwhile
+    if (turn !== this.turn) return;  // the reader chose other runs meanwhile
     this.motions = motions.filter((motion): motion is Motion => motion !== null);
     this.letters = letters.filter((_, i) => motions[i]);
     this.truth = truth;
@@ -221,14 +222,14 @@ export class MotionPlayer extends HTMLElement {
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
     const pictures = this.given?.motion ?? this.motions.find(motion => motion.run.last_pictures);
     [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
-    this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // last pictures take six seconds
+    this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // a run's last pictures take six seconds
     const plots: Omit<Shown, 'begin'|'end'>[] = [], [a, b] = this.views, purple = 'var(--difference)';
     if (this.picks && b) {
       const times = Array.from({length: 101}, (_, i) => this.begin + i / 100 * (this.end - this.begin));
       const apart = times.map(
           t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
       const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
-      // smaller differences than these are not resolved
+      // differences below this sum are not resolved
       this.least = a.motion.bound + b.motion.bound, this.bound = Math.max(a.motion.bound, b.motion.bound);
       this.top = largest > this.least ? roundUp(largest) : 0;
       this.views.push(
@@ -334,13 +335,13 @@ export class MotionPlayer extends HTMLElement {
     this.wanted = true;
     await this.wake();
     if (this.playing || !this.wanted) return;
-    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // the player initially shows the poster's time
+    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // at first the player shows the poster's time
     this.playing = true;
     this.controls.setPlaying(true);
     let last: number|null = null;
     const tick = (now: number) => {
       if (!this.playing) return;
-      // pauses while the page is hidden
+      // limited, because frames stop while the page is hidden
       const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
       last = now;
       this.seek(this.time + this.speed * this.pace * passed);
@@ -422,7 +423,7 @@ function runHero(hero: HTMLElement) {
   const clock = hero.querySelector('.clock')!;
   const ends = players.map(player => player.end), end = Math.max(...ends);
   let time = 0, last: number|null = null, playing = false, seen = false;
-  // current errors replace the largest ones
+  // show current errors instead of the largest ones
   const readouts = players.map(player => {
     const spans = [...player.closest('.views')!.nextElementSibling?.querySelectorAll<HTMLElement>('[data-key]') ?? []];
     return spans.map(span => ({span, still: [...span.childNodes]}));
@@ -455,7 +456,7 @@ function runHero(hero: HTMLElement) {
     if (!playing || !seen) return void (last = null);
     time += last === null ? 0 : pace() * Math.min(0.1, (now - last) / 1000);
     last = now;
-    if (time > end + 0.6) time = 0;  // pauses at the end
+    if (time > end + 0.6) time = 0;  // after a pause at the end
     show();
     requestAnimationFrame(tick);
   };

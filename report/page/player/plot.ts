@@ -26,7 +26,7 @@ export interface Shown {
   series: Series[];
   begin: number;  // s
   end: number;
-  none?: string;  // text if nothing is known
+  none?: string;  // text that is shown if nothing is known
 }
 
 const high = 140, top = 6, foot = high - 22;
@@ -58,7 +58,7 @@ export class Plot {
         this.x && seek(this.x.value(event.clientX - this.area.getBoundingClientRect().left));
     this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), go(event)));
     this.area.addEventListener('pointermove', event => event.buttons && go(event));
-    // width is cached, because a query after a change of another plot would force a layout
+    // keep the width, because reading it after another plot has changed would force a layout
     new ResizeObserver(() => (this.width = this.area.clientWidth, this.draw())).observe(this.area);
   }
 

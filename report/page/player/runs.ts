@@ -64,7 +64,7 @@ async function playRun(key: string, marker: HTMLElement) {
   dialog.addEventListener('click', event => event.target === dialog && shut());
   dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
-  if (shown) await player.wake();  // even with reduced motion, because of the click
+  if (shown) await player.wake();  // plays even with reduced motion, because the reader asked for it
 }
 
 /** Lists a figure's runs by method, by a map's row, and by setting. Built when first opened. */
@@ -73,7 +73,7 @@ export function listRuns(figure: HTMLElement) {
   const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
   list.addEventListener('toggle', () => {
     const markers = [...figure.querySelectorAll<HTMLElement>('[data-run]')];
-    if (list.querySelector('select') || markers.length === 0) return;  // the figure is not drawn yet
+    if (list.querySelector('select') || markers.length === 0) return;  // the second case: the figure is not drawn yet
     const ways = markers.map(marker => {
       const {method} = parts(marker.dataset.run!), [head, outcome = ''] = tipOf(marker).split('\n');
       const [asked, ...row] = head.replace(`${method}, `, '').split(', ');

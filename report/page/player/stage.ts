@@ -19,7 +19,7 @@ export interface StageScene {
   pins: number[];
   /** Families are in the order of the springs; the first `threads` springs are drawn on a cloth. */
   springs: {families: {name: string, count: number}[], threads: number, rest_unit: number};
-  spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
+  spheres: {radius: number, centres: Numbers[]}[];  // centres at equally spaced times
   planes?: PlaneFace[];
 }
 /** A plane: a point (m) and the outward normal. */
@@ -32,7 +32,7 @@ export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
 const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
   triangles: Uint16Array;
-  springs: Uint16Array;  // both ends of each
+  springs: Uint16Array;  // indices of both ends of each spring
   rests: Numbers;        // rest lengths in `rest_unit`
 }
 
@@ -71,11 +71,11 @@ export interface PanelView<P> {
   background: number[];
   eye: Vec3;
   toClip: number[];
-  toKey: number[]|null;  // clip space of the light
+  toKey: number[]|null;  // matrix to the clip space of the light
   pixel: number;         // m
   valued: boolean;
   surface: boolean;
-  ghost: boolean;  // drawn over the previous panel
+  ghost: boolean;  // true: drawn over the previous panel
 }
 
 /** Rows and columns that maximise the smaller side of each picture; `title`: height above it. */
