@@ -11,10 +11,10 @@
 namespace crosscheck::render {
 namespace {
 
-/// Rigid motion of `eye` to the origin, looking along -z at the frame's origin.
+/// Rigid motion that moves `eye` to the origin, where it looks along -z at the former origin.
 Eigen::Matrix4f look_at_origin(const Eigen::Vector3f& eye) {
   const Eigen::Vector3f back = eye.normalized();
-  // seen from straight above, the viewer's side is at the bottom of the picture
+  // if the scene is seen from straight above, the viewer's side is at the bottom of the picture
   const Eigen::Vector3f up = std::abs(back.y()) > 0.9999f ? Eigen::Vector3f(0, 0, -1) : Eigen::Vector3f(0, 1, 0);
   const Eigen::Vector3f right = up.cross(back).normalized();
   Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
@@ -78,7 +78,7 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vect
 
 namespace {
 
-constexpr float key_light_radius = 0.13f;  // fraction of its distance; determines the penumbra
+constexpr float key_light_radius = 0.13f;  // radius of the light / its distance; determines the penumbra
 constexpr float pixel_width = 1.3f;        // width of the box filter, pixels
 
 float radical_inverse(int base, int i) {
@@ -122,7 +122,7 @@ std::vector<Sample> light_samples(int passes) {
 namespace {
 
 constexpr double body_part = 1 - 2 * 0.06;  // fraction of the view for bodies and balls: a margin of 6 % on each side
-constexpr double least_part = 0.7;          // smallest such fraction, even if shadows are cut off
+constexpr double least_part = 0.7;          // minimum of body_part, even if shadows are cut off
 constexpr double shadow_part = 1 - 2 * 0.015;  // fraction of the view for shadows
 constexpr double clearance = 0.08;             // height of the lowest point above the ground / size
 
@@ -133,18 +133,18 @@ struct Wedge {
   double lower = -std::numeric_limits<double>::infinity();  // maximum of -a + slope c
 
   void hold(double a, double c, double radius) {
-    const double reach = radius * std::sqrt(1 + slope * slope);  // a sphere touches the slanted plane
+    const double reach = radius * std::sqrt(1 + slope * slope);  // extent of a sphere that touches the slanted plane
     upper = std::max(upper, a + slope * c + reach);
     lower = std::max(lower, -a + slope * c + reach);
   }
   double least_distance() const { return (upper + lower) / (2 * slope); }
 };
 
-/// Bodies and shadows along an axis of the picture. `body` holds for the largest part of the view that bodies may fill,
-/// `least` for the smallest.
+/// Conditions of bodies and shadows along an axis of the picture. `body` is for the largest part of the view that
+/// bodies may fill, and `least` for the smallest.
 struct Axis {
   Wedge body, least, shadow;
-  /// `tangent`: half the width of the view at distance 1; `bead`: extent of beads beyond their centre.
+  /// `tangent`: half the width of the view at distance 1; `bead`: radius of the beads drawn around particles.
   Axis(double tangent, double bead)
       : body{tangent * body_part - bead}, least{tangent * least_part - bead}, shadow{tangent * shadow_part} {}
 
@@ -153,7 +153,7 @@ struct Axis {
   double middle() const { return (body.upper - body.lower) / 2; }
   double nearest() const { return body.least_distance(); }
   double farthest() const { return least.least_distance(); }
-  /// Distance at which all shadows are visible while the bodies are centred.
+  /// Smallest distance at which all shadows are visible while the bodies are centred.
   double shadows_seen() const { return std::max(shadow.upper - middle(), shadow.lower + middle()) / shadow.slope; }
 };
 
@@ -196,7 +196,7 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
     horizontal.hold(right.dot(x), back.dot(x), b.radius);
     vertical.hold(top.dot(x), back.dot(x), b.radius);
 
-    // the shadow on the ground is a point, or some points of a circle
+    // the shadow on the ground is represented by a point, or by points on a circle
     const Vec3 foot = x - key * ((b.centre.y() - floor) / key.y());
     for (int i = 0; ground && i < (b.radius > 0 ? 8 : 1); ++i) {
       const double angle = i * std::numbers::pi / 4;

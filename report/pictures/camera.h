@@ -1,4 +1,4 @@
-// Camera and light: the frame of all drawing, and samples of the light.
+// Camera and light: the coordinate frame in which everything is drawn, and samples of the light.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +10,10 @@
 
 namespace crosscheck::render {
 
-/// Frame of all drawing: the view's target is the origin, up is +y, the viewer is towards +z, and the view is 1 high.
-/// In this frame scenes have a common size, and are lit from the same side of the viewer.
+/// Coordinate frame in which everything is drawn: the view's target is the origin, up is +y, the viewer is towards +z,
+/// and the view is 1 high. In this frame scenes have a common size, and are lit from the same side of the viewer.
 struct Frame {
-  Eigen::Matrix3d axes;        // rows: right, up, towards the viewer; right and towards are horizontal
+  Eigen::Matrix3d axes;        // rows: right, up, towards the viewer; the first and the last are horizontal
   Vec3 origin;                 // target of the view, m
   double size = 1;             // height of the view at the target, m
   Eigen::Vector3f eye;         // in the frame
@@ -24,10 +24,10 @@ struct Frame {
   float length(double metres) const { return static_cast<float>(metres / size); }
 };
 
-/// Throws std::runtime_error if the view is not finite or the eye is at the target.
+/// Frame of a view. Throws std::runtime_error if the view is not finite or the eye is at the target.
 Frame frame_of(const View& view, double aspect);
 
-/// Axes in rows: horizontally to the right, up, horizontally towards the eye.
+/// Matrix whose rows are the axes: horizontally to the right, up, and horizontally towards the eye.
 Eigen::Matrix3d upright_axes(const Vec3& towards_eye);
 
 /// Direction towards the centre of the key light: steep, from the left behind the viewer.
@@ -36,7 +36,7 @@ Eigen::Vector3f key_direction();
 /// Clip matrix of a distant light that covers the sphere, with depth 0..1 from its near to its far side.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vector3f& centre, float radius);
 
-// light on a surface that faces the key light, and on one that faces up under an open sky
+// intensity of light on a surface that faces the key light, and on one that faces up under an open sky
 constexpr float key_light = 0.66f, sky_light = 0.47f;
 
 struct Sample {

@@ -20,8 +20,7 @@ namespace crosscheck::render {
 
 struct Context::Handle {
   OSMesaContext context = nullptr;
-  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa requires a buffer, although drawing uses other
-                                                    // framebuffers
+  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa requires a buffer, although drawing uses other buffers
   Handle() {
     const int attributes[] = {
         OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
@@ -50,7 +49,7 @@ struct Context::Handle {
     context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   }
   ~Handle() {
-    // other contexts of the process may use the display
+    // do not terminate the display, because other contexts of the process may use it
     if (context == EGL_NO_CONTEXT) return;
     if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
@@ -63,11 +62,11 @@ struct Context::Handle {
 #endif
 
 Context::Context() {
-  // otherwise Mesa writes compiled shaders into the home folder
+  // otherwise Mesa would write compiled shaders into the home folder
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   handle_ = std::make_unique<Handle>();
   if (!handle_->make_current()) throw std::runtime_error("Mesa gives no current OpenGL 3.3 core context");
-  // a libGL linked in addition to OSMesa would silently ignore every call
+  // fail early: a libGL linked in addition to OSMesa would silently ignore every call
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
   if (!renderer.starts_with("llvmpipe") && !renderer.starts_with("softpipe"))

@@ -15,7 +15,7 @@ using Edge = std::array<int, 2>;
 
 struct PlacedBody {
   const Body& body;
-  const Scale* scale;              // null: no colours by value
+  const Scale* scale;              // null: values have no colours
   std::vector<Eigen::Vector3f> x;  // in the frame
 
   PlacedBody(const Body& body_, const Frame& frame, const Scale* scale_) : body(body_), scale(scale_) {
@@ -27,7 +27,7 @@ struct PlacedBody {
   /// Position of a particle's value on the scale; 0 if the body has no values.
   float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
 
-  /// Median length of the edges; 0 if there are none.
+  /// Median length of the edges; 0 if the list is empty.
   float median_length(const std::vector<Edge>& edges) const {
     std::vector<float> lengths;
     for (const auto& [i, j] : edges) lengths.push_back((at(i) - at(j)).norm());
@@ -36,16 +36,16 @@ struct PlacedBody {
     std::nth_element(lengths.begin(), middle, lengths.end());
     return *middle;
   }
-  /// Normal of the triangle, twice as long as its area.
+  /// Normal of the triangle, whose length is twice the triangle's area.
   Eigen::Vector3f area_vector(const std::array<int, 3>& t) const {
     return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
   }
 };
 
-constexpr float absurd = 200;           // heights of the view; bodies that extend farther are omitted
-constexpr float near_view = 2.5f;       // heights of the view; nothing farther casts a shadow
-constexpr float no_thread = 1e6f;       // distance to an edge without a thread
-constexpr float thread_width = 0.075f;  // spacings of the threads
+constexpr float absurd = 200;           // heights of the view; a body that extends farther is omitted
+constexpr float near_view = 2.5f;       // heights of the view; nothing farther away casts a shadow
+constexpr float no_thread = 1e6f;       // used as the distance to an edge that has no thread
+constexpr float thread_width = 0.075f;  // in units of the spacing of the threads
 
 Edge sorted(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
@@ -90,7 +90,7 @@ void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& 
     }
 }
 
-/// Returns the threads that are not an edge of a triangle.
+/// Adds the cloth to the list. Returns the threads that are not an edge of a triangle.
 std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));
@@ -105,7 +105,8 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
       const int i = triangle[k];
       corner[k] = {placed.at(i), normal[std::size_t(i)], Eigen::Vector3f::Constant(no_thread), placed.position(i)};
     }
-    // the distance to the edge opposite to corner k is linear: its height at k, and 0 at the other corners
+    // the distance to the edge opposite to corner k is linear: it is the triangle's height at k, and 0 at the other
+    // corners
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3], j = triangle[(k + 2) % 3];
       loose.erase(sorted(i, j));
@@ -119,11 +120,11 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   return {loose.begin(), loose.end()};
 }
 
-// A cloth triangle is flat, a ball is not. If all three corners are exactly on a ball of radius R, the middle of an
+// A cloth triangle is flat, but a ball is not. If all three corners are exactly on a ball of radius R, the middle of an
 // edge of length l dips into the ball by l^2 / (8 R), and the middle of the triangle by l^2 / (6 R): the ball would
-// show although no particle is inside. Therefore the cloth is drawn as a curved surface through the particles. `lift`
-// is the depth to which its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by `lift`,
-// in depth only, and computes its shadows from there. Deeper penetration is visible.
+// show although no particle is inside. Therefore the cloth is drawn as a curved surface through the particles, made of
+// smaller flat pieces. `lift` is the depth to which these pieces may still dip. The renderer moves the cloth towards
+// the eye by `lift`, in depth only, and computes its shadows from there. Deeper penetration is visible.
 
 // sizes in heights of the view
 constexpr float few_tubes_radius = 0.0075f, view_bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
@@ -168,7 +169,7 @@ void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   }
 }
 
-/// Adds the path as rods that grow and darken towards the present, the oldest first.
+/// Adds the path as rods that grow and darken towards the present; the oldest rod comes first.
 void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   constexpr float least_step = 0.004f;  // heights of the view; shorter steps are merged
   std::vector<Eigen::Vector3f> path;
@@ -185,7 +186,7 @@ void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   }
 }
 
-/// Longest edge of a triangle with a corner near the ball.
+/// Longest edge of a triangle that has a corner near the ball.
 float longest_edge_near(const DrawList& list, const Rod& ball) {
   float longest = 0;
   for (std::size_t i = 0; i + 2 < list.cloth_index.size(); i += 3) {
@@ -198,7 +199,7 @@ float longest_edge_near(const DrawList& list, const Rod& ball) {
   return longest;
 }
 
-/// A sphere around everything that is not absurdly far away, for the shadow maps.
+/// Chooses a sphere around everything that is not absurdly far away, for the shadow maps.
 void enclose(DrawList& list) {
   std::vector<std::pair<Eigen::Vector3f, float>> all;
   for (const ClothVertex& c : list.cloth) all.emplace_back(c.x, 0);
@@ -234,7 +235,7 @@ DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optiona
   }
   for (const Rod& ball : list.balls) {
     const float edge = longest_edge_near(list, ball);
-    // 2: normals only approximate the ball's
+    // the factor 2 allows for normals that only approximate those of the ball
     list.lift = std::max(list.lift, std::min(2 * edge * edge / (6 * ball.radius), 0.006f));
   }
   enclose(list);

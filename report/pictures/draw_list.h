@@ -1,4 +1,4 @@
-// A panel as triangles and rods in the frame, in single precision.
+// Content of a panel as triangles and rods in the camera's frame, in single precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,14 @@
 
 namespace crosscheck::render {
 
-/// Corner of a cloth triangle. `rim`: distances to the three edges in half widths of a thread; large for edges without
-/// a thread.
+/// Corner of a cloth triangle. `rim`: distances to the three edges in half widths of a thread; large for an edge
+/// without a thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
   float value;  // position on the scale, 0..1
 };
 
-/// A rod with round ends; a ball if both ends coincide.
+/// A rod with round ends, which is a ball if both ends coincide.
 struct Rod {
   Eigen::Vector3f a;
   float radius;
@@ -26,16 +26,16 @@ struct Rod {
 };
 
 struct DrawList {
-  std::vector<ClothVertex> cloth;     // corners in all surfaces
+  std::vector<ClothVertex> cloth;     // corners of all surfaces
   std::vector<unsigned> cloth_index;  // three per triangle
-  bool coloured = false;              // the cloth has values
+  bool coloured = false;              // true if the cloth is coloured by values
   float lift = 0;                     // depth to which flat triangles may dip into a ball (draw_list.cpp)
   std::vector<Rod> balls, beads, rods, trail;
-  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // centre of a sphere around all that casts a shadow
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // centre of a sphere around everything that casts a shadow
   float radius = 0.5f;
 };
 
-/// Omits bodies that are not finite or absurdly far away.
+/// Makes the list of a panel. Omits bodies that are not finite or extend absurdly far.
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
 
 struct RodMesh {

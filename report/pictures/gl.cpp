@@ -40,7 +40,7 @@ void attach_depth(int width, int height) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, id);
 }
 
-/// A new texture, attached to a new framebuffer.
+/// Makes a texture, attached to a new framebuffer.
 Target new_target(GLenum attachment, GLint format, int width, int height, GLenum kind, GLint filter) {
   Target target;
   glGenTextures(1, &target.texture);
@@ -85,7 +85,7 @@ Target colour_target(int width, int height, GLint format, bool with_depth) {
 Target shadow_map(int texels) {
   const Target target =
       new_target(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, texels, texels, GL_DEPTH_COMPONENT, GL_LINEAR);
-  // nothing is drawn into the outermost texels, so everything outside the map is lit
+  // the outermost texels stay empty, so that everything outside the map is lit
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);

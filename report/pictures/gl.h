@@ -1,4 +1,4 @@
-// The renderer's part of OpenGL 3.3: off-screen context, shaders, framebuffers, triangles.
+// The part of OpenGL 3.3 that the renderer uses: off-screen context, shaders, framebuffers, triangles.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -34,7 +34,7 @@ class Program {
   explicit Program(const std::string& defines);
   void use() const { glUseProgram(id_); }
 
-  // uniforms of the program in use; names that the compiler optimised away are ignored
+  // set uniforms of the program in use; names that the compiler optimised away are ignored
   void set(const char* name, int value) const { glUniform1i(at(name), value); }
   void set(const char* name, float value) const { glUniform1f(at(name), value); }
   void set(const char* name, const Eigen::Vector3f& v) const { glUniform3f(at(name), v.x(), v.y(), v.z()); }
@@ -52,10 +52,10 @@ struct Target {
 };
 Target colour_target(int width, int height, GLint format, bool with_depth);
 
-/// A square depth texture that compares when sampled; everything outside it is lit.
+/// A square depth texture that compares depths when it is sampled; everything outside it is lit.
 Target shadow_map(int texels);
 
-/// Corners or instances: rows of `stride` bytes whose columns are vertex attributes.
+/// Data of corners or instances: rows of `stride` bytes whose columns are vertex attributes.
 struct VertexRows {
   struct Column {
     GLuint location;
@@ -67,7 +67,7 @@ struct VertexRows {
   std::vector<Column> columns;
 };
 
-/// Triangles for a draw call, once or per instance. Must be destroyed before the context.
+/// Triangles that are drawn by one call, once or once per instance. Must be destroyed before the context.
 class Batch {
  public:
   Batch(const std::vector<unsigned>& index, const VertexRows& corners, const std::optional<VertexRows>& instances = {});

@@ -35,7 +35,7 @@ std::string png_bytes(const Image& image, double pixels_per_inch) {
   const auto append = [](png_structp png, png_bytep data, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
   };
-  // the simple interface of libpng does not write the resolution; errors other than lack of memory are impossible here
+  // the simple interface of libpng does not write the resolution; here, no error but lack of memory can occur
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, append, nullptr);
@@ -63,8 +63,8 @@ std::string webp_bytes(const Image& image) {
 
 namespace {
 
-/// The image without text. Throws std::runtime_error if nothing is visibly darker than the brightest pixel: then only
-/// the ground is drawn.
+/// Draws the image without text. Throws std::runtime_error if nothing is visibly darker than the brightest pixel,
+/// because then the image shows only the ground.
 Image drawn(const Picture& picture, const std::filesystem::path& file) {
   Image image = draw(picture);
   constexpr int visible = 24;  // out of 255; the ground of an empty picture has a single colour

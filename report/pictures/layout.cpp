@@ -39,7 +39,7 @@ double legend_entry_width(const std::string& name) { return text_width(name, fal
 
 namespace {
 
-constexpr double fill = 0.92;  // fraction of the room that a text may fill
+constexpr double fill = 0.92;  // fraction of the available width that a text may fill
 
 std::size_t columns_of(const Picture& picture) {
   return picture.rows.empty()
@@ -47,7 +47,7 @@ std::size_t columns_of(const Picture& picture) {
              : std::ranges::max_element(picture.rows, {}, [](const auto& row) { return row.size(); })->size();
 }
 
-/// Largest number of lines in the row; 0 without texts.
+/// Largest number of lines of this text in the row; 0 if all are empty.
 int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
   std::size_t most = 0;
   for (const Panel& p : row)
@@ -55,10 +55,10 @@ int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
   return int(most);
 }
 
-/// Height of the lines, if the first is `first` high.
+/// Height of the lines, of which the first has height `first`.
 double height_of(int lines, double first, double font) { return lines ? first + (lines - 1) * line_height * font : 0; }
 
-/// Largest font size up to `wanted` with which the text fits.
+/// Largest font size up to `wanted` with which the text is at most `room` wide.
 double fitting(double wanted, const std::string& text, bool bold, double room) {
   for (const std::string& line : split(text, '\n'))
     wanted = std::min(wanted, room / std::max(text_width(line, bold), 1e-3));
@@ -76,7 +76,7 @@ double footer_of(const Picture& picture, const Layout& layout) {
   return footer;
 }
 
-/// Heights of the titles above the rows of panels.
+/// Heights of the titles above each row of panels.
 std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
   std::vector<double> bands;
   for (const auto& row : picture.rows) {
@@ -87,7 +87,7 @@ std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
   return bands;
 }
 
-/// Fonts, columns and legend. They do not depend on the picture's height if the size of letters is given.
+/// Fonts, columns and legend. They do not depend on the picture's height if the height of letters is given.
 Layout columns_and_fonts(const Picture& picture) {
   const std::size_t columns = columns_of(picture);
   if (columns == 0) throw std::runtime_error("render: the picture has no panels");
@@ -102,7 +102,7 @@ Layout columns_and_fonts(const Picture& picture) {
   return layout;
 }
 
-/// True if wrapped titles fit into panels of this width (in units of the font size).
+/// True if the wrapped titles fit into panels of width `room` (in units of the font size).
 bool titles_fit(const std::vector<Panel>& panels, double room) {
   return std::ranges::all_of(panels, [room](const Panel& panel) {
     return std::ranges::all_of(split(wrapped(panel.title, true, room), '\n'),
@@ -110,7 +110,7 @@ bool titles_fit(const std::vector<Panel>& panels, double room) {
   });
 }
 
-/// Height (pixels) at which panels have this aspect.
+/// Picture height (pixels) at which panels have this aspect.
 int height_for(const Picture& picture, double aspect) {
   const Layout layout = columns_and_fonts(picture);
   double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
@@ -122,7 +122,7 @@ int height_for(const Picture& picture, double aspect) {
 
 Layout layout_of(const Picture& picture) {
   Layout layout = columns_and_fonts(picture);
-  // rows share the height that titles and footer leave
+  // the rows share the height that titles and footer leave over
   const std::vector<double> band = bands_of(picture, layout);
   double left = picture.height - footer_of(picture, layout);
   for (const double height : band) left -= height;
@@ -170,7 +170,7 @@ void arrange(Picture& picture, double aspect) {
   const double width = fill * picture.width / picture.text;
   std::size_t columns = panels.size();
   while (columns > 1 && !titles_fit(panels, width / double(columns))) --columns;
-  // as many panels per row as possible, so that few places stay empty
+  // choose as many panels per row as possible, so that few places stay empty
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   columns = (panels.size() + rows - 1) / rows;
   picture.rows.clear();

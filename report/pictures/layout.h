@@ -8,7 +8,7 @@
 
 namespace crosscheck::render {
 
-/// Width in DejaVu Sans, in units of the font size; defined in lettering.cpp.
+/// Width of a text in DejaVu Sans, in units of the font size; defined in lettering.cpp.
 double text_width(const std::string& text, bool bold);
 
 inline constexpr double line_height = 1.25;  // in units of the font size
@@ -27,17 +27,18 @@ struct Layout {
   std::vector<double> subtitle_y;  // centre of the subtitle's first line, per row
   double legend = 0;               // font size of the legend, pixels
   double legend_width = 0;         // in units of `legend`
-  double legend_y = 0;             // centre of its line
+  double legend_y = 0;             // centre of the legend's line
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
-/// True for a row with a single title, in its first column: a strip, which this title heads.
+/// True for a strip: a row that has only one title, which is in the first column and applies to the whole row.
 bool is_strip(const std::vector<Panel>& row);
 
-/// Width with swatch and gap, in units of the font size.
+/// Width of an entry with its swatch and gap, in units of the font size.
 double legend_entry_width(const std::string& name);
 
-/// Throws std::runtime_error if the picture has no panels, and InputError if it has no room for them.
+/// Lays out a picture. Throws std::runtime_error if the picture has no panels, and InputError if it is too small for
+/// them.
 Layout layout_of(const Picture& picture);
 
 }  // namespace crosscheck::render

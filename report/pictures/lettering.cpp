@@ -1,4 +1,4 @@
-// Independent of the user's font settings, except for the choice of files with DejaVu Sans.
+// Results do not depend on the user's font settings, except for the choice of files with DejaVu Sans.
 #include "report/pictures/lettering.h"
 
 #include <cairo-pdf.h>
@@ -62,8 +62,8 @@ class Page {
     cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
     return extents.x_advance / 100;
   }
-  /// The centre of the first line is at height y, further lines are below. The text begins at x (`before` 0) or is
-  /// centred there (0.5). `size` in pixels.
+  /// Writes a text. The centre of the first line is at height y; further lines are below. Lines begin at x if `before`
+  /// is 0, and are centred there if it is 0.5. `size` is in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
     for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);
@@ -71,7 +71,7 @@ class Page {
       cairo_move_to(cairo_.get(), start, y + 0.35 * size);
       if (letters_stay_)
         cairo_show_text(cairo_.get(), printable(line).c_str());
-      else  // outlines, because glyph positions would be rounded to pixels
+      else  // draw outlines, because glyph positions would be rounded to pixels
         cairo_text_path(cairo_.get(), printable(line).c_str()), cairo_fill(cairo_.get());
       y += line_height * size;
     }
@@ -90,7 +90,7 @@ class Page {
   /// A box with the colours of a scale from left to right.
   void gradient(double left, double top, double width, double height) {
     const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
-    for (int i = 0; i <= 24; ++i) {  // four pieces per interval of the map
+    for (int i = 0; i <= 24; ++i) {  // four pieces per interval of the colour scale
       const Colour c = scale_colour(float(i) / 24);
       cairo_pattern_add_color_stop_rgb(colours.get(), i / 24.0, c.x(), c.y(), c.z());
     }
@@ -141,7 +141,7 @@ void add_legend(Page& page, const Picture& picture, const Layout& layout) {
   }
 }
 
-/// A step of 1, 2 or 5 times a power of ten for about five intervals.
+/// Distance between ticks: 1, 2 or 5 times a power of ten, so that there are about five intervals.
 double tick_step(double span) {
   const double rough = span / 5, power = std::pow(10, std::floor(std::log10(rough)));
   const double ratio = rough / power;
@@ -201,7 +201,7 @@ std::string pdf_page(const Picture& picture, const Layout& layout, const Image& 
   const double points = 72 / pixels_per_inch;  // size of a pixel
   const Owned<cairo_surface_t> surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, points * image.width, points * image.height));
-  // fixed, because two runs must write the same bytes
+  // a fixed date, because two runs must write the same bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
   {
     Page page(surface.get());

@@ -11,7 +11,7 @@
 
 namespace crosscheck::render {
 
-/// An obstacle, drawn at its true radius.
+/// An obstacle, which is drawn at its true radius.
 struct Ball {
   Vec3 centre;    // m
   double radius;  // m
@@ -23,30 +23,30 @@ struct Body {
   std::vector<std::array<int, 3>> triangles;  // surface; may be empty
   std::vector<std::array<int, 2>> threads;    // springs on the surface's grid, drawn as fine lines
   std::vector<std::array<int, 2>> tubes;      // springs drawn as tubes
-  std::vector<double> tube_value;             // one per tube, for the scale; empty: plain
-  std::vector<int> tube_colour;               // one per tube, index in the palette; empty: plain
-  std::vector<double> value;                  // one per particle, for the scale; empty: plain cloth
+  std::vector<double> tube_value;             // one value per tube, for the scale; empty: plain
+  std::vector<int> tube_colour;               // index in the palette for each tube; empty: plain
+  std::vector<double> value;                  // one value per particle, for the scale; empty: plain cloth
   std::vector<int> pinned;                    // particles drawn as pins
   double tube_radius = 0;                     // m; 0: derived from the size of the view
-  bool beads = false;                         // draws particles as balls, sized by the view
-  std::vector<Vec3> trail;                    // path of one particle, a fading line
+  bool beads = false;                         // true: draw particles as balls, sized by the view
+  std::vector<Vec3> trail;                    // path of one particle, drawn as a fading line
 };
 
 struct Panel {
-  std::string title;     // such as "mysim/leapfrog"; title and subtitle may be empty or have several lines
+  std::string title;     // such as "mysim/leapfrog"; titles and subtitles may be empty or have several lines
   std::string subtitle;  // such as "t = 2.5 s"
   std::vector<Body> bodies;
   std::vector<Ball> balls;
 };
 
-/// One camera for all panels, so that they are comparable. Up is +y.
+/// Camera of all panels, so that they are comparable. Up is +y.
 struct View {
   Vec3 eye, target;             // m
   std::optional<double> floor;  // height of the ground, m; empty: no ground
 };
 inline constexpr double field_of_view = 25;  // degrees, vertical
 
-/// Maps values to colours; shown as a bar below the panels.
+/// Maps values to colours, and is shown as a bar below the panels.
 struct Scale {
   std::string label;  // "stretch / %"
   double high;        // in the label's unit; the low end is 0
@@ -67,7 +67,7 @@ struct Picture {
   Quality quality = Quality::still;
 };
 
-/// Rows from top to bottom; 3 bytes per pixel, sRGB.
+/// Rows of pixels from top to bottom; 3 bytes per pixel, sRGB.
 struct Image {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;
@@ -76,13 +76,13 @@ struct Image {
 /// Reads a PNG. Throws std::runtime_error with the file's name if that fails.
 Image read_png(const std::filesystem::path& file);
 
-/// Bytes of a PNG; without a resolution if that is 0.
+/// Bytes of a PNG, which states no resolution if `pixels_per_inch` is 0.
 std::string png_bytes(const Image& image, double pixels_per_inch = 0);
 
 /// Bytes of a lossy WebP, half the size of a PNG with 128 colours; for small pictures on a page.
 std::string webp_bytes(const Image& image);
 
-/// Draws the panels off screen, without text. Deterministic. Throws std::runtime_error with the cause.
+/// Draws the panels off screen, without text. The result is deterministic. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);
 
 /// Writes a PNG with titles, colour bar and legend. Throws std::runtime_error with the cause (empty picture, file not
@@ -93,17 +93,17 @@ void write_png(const Picture& picture, const std::filesystem::path& file);
 void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
                  const std::filesystem::path& pdf);
 
-/// Width / height of a panel without the room for text: the aspect for fit_view(). Depends on the size, the rows, and
-/// the presence of titles, subtitles, a scale and a legend, but not on bodies or view.
+/// Width / height of a panel without the space for text, which fit_view() needs as its aspect. Depends on the size, the
+/// rows, and the presence of titles, subtitles, a scale and a legend, but not on bodies or view.
 double panel_aspect(const Picture& picture);
 
 /// Distributes the panels of a single row over as many rows as their titles need, wraps titles and subtitles, and
 /// chooses the picture's height. The height of letters must be given.
 void arrange(Picture& picture, double aspect);
 
-/// A view in which all points and balls are centred and fill 70 to 88 % of the width or height, depending on the room
-/// for their shadow. `direction`: from the target to the eye, of any length. Ignores points that are not finite. The
-/// ground is slightly below the lowest point.
+/// A view in which all points and balls are centred and fill 70 to 88 % of the width or height, depending on the space
+/// that their shadow needs. `direction`: from the target to the eye, of any length. Ignores points that are not finite.
+/// The ground is slightly below the lowest point.
 View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
               bool ground = true);
 

@@ -1,6 +1,6 @@
-// Renders panels without text. Accumulates passes (Haeberli and Akeley 1990): each shifts the camera within the pixel,
-// and draws two shadow maps, for a point of the key light and one of the sky. The mean of the passes has smooth edges,
-// soft shadows and ambient occlusion. All pixels use the same samples, so there is no grain.
+// Renders panels without text. Accumulates passes (Haeberli and Akeley 1990): each pass shifts the camera within the
+// pixel, and draws two shadow maps, one for a point of the key light and one for a point of the sky. The mean of the
+// passes has smooth edges, soft shadows and ambient occlusion. All pixels use the same samples, so there is no grain.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -28,7 +28,7 @@ Batch batch_of(const RodMesh& mesh, const std::vector<Rod>& rods) {
           rows_of(rods, {{1, 4, offsetof(Rod, a)}, {2, 3, offsetof(Rod, b)}, {3, 3, offsetof(Rod, colour)}})};
 }
 
-/// A panel's shapes: in detail for the eye; coarser for shadows and for many shapes.
+/// Shapes of a panel: detailed ones for the eye, and coarser ones for shadows and for large numbers of shapes.
 struct Uploaded {
   Batch cloth, balls, beads, rods, trail, beads_shadow, rods_shadow;
   Uploaded(const DrawList& s, bool many)
@@ -61,7 +61,7 @@ struct Painter {
   const Target key_map = shadow_map(key_texels), sky_map = shadow_map(sky_texels);
   const Target pass, total;
   GLuint scale_map = 0, nothing = 0;
-  float open_ground = 0;  // mean light without shadows
+  float open_ground = 0;  // mean light on the ground without shadows
 
   Painter(int width_, int height_, Quality quality)
       : width(width_),
@@ -144,7 +144,7 @@ struct Painter {
       glBindVertexArray(nothing);
       glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
-    // last, and without writing depth: where the trail crosses itself, the newer part is on top
+    // draw the trail last, and without writing depth, so that its newer part is on top where the trail crosses itself
     glDepthMask(GL_FALSE);
     begin(trail), shapes.trail.draw();
     glDepthMask(GL_TRUE);
@@ -206,7 +206,7 @@ Image draw(const Picture& picture) {
   const Layout layout = layout_of(picture);
   const Frame frame = frame_of(picture.view, double(layout.panel_width) / layout.panel_height);
   Image image = blank(picture.width, picture.height);
-  const Context context;  // deletes all textures and programs
+  const Context context;  // its destructor, which runs last, deletes all textures and programs
   const Painter painter(layout.panel_width, layout.panel_height, picture.quality);
   for (std::size_t row = 0; row < picture.rows.size(); ++row)
     for (std::size_t column = 0; column < picture.rows[row].size(); ++column) {

@@ -20,7 +20,7 @@ double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
 
-/// Springs, then distance constraints as structural springs.
+/// Springs, followed by distance constraints as structural springs.
 std::vector<Spring> links_of(const Scene& scene) {
   std::vector<Spring> links;
   if (const auto* springs = scene.model.find<Springs>()) links = springs->list;
@@ -29,7 +29,7 @@ std::vector<Spring> links_of(const Scene& scene) {
   return links;
 }
 
-/// Mean strain at each particle, without shear and bend springs.
+/// Mean strain at each particle; shear and bend springs do not count.
 std::vector<double> mean_at_particles(const std::vector<Spring>& links, const std::vector<double>& strain, size_t n) {
   std::vector<double> sum(n, 0), count(n, 0);
   for (size_t i = 0; i < links.size(); ++i)
@@ -48,7 +48,7 @@ double round_up(double value) {
   return value;
 }
 
-/// The body at a frame; in mode difference coloured by the distance from `base`.
+/// The body at a frame; in mode difference, it is coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -71,7 +71,7 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
     body.value.resize(body.x.cols());
     for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
   }
-  // without a cloth, the last particle draws its path
+  // if there is no cloth, draw the path of the last particle
   if (scene.triangles.empty())
     for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
   return body;
@@ -86,8 +86,8 @@ std::vector<Family> families_of(const Scene& scene) {
   return present;
 }
 
-/// One body per family: thick structural springs, thin shear and bend springs. Bend springs coincide with structural
-/// ones, and are shifted towards the eye to be visible.
+/// Bodies that show the springs, one per family: thick tubes for structural springs, thin ones for shear and bend
+/// springs. Bend springs coincide with structural ones, and are shifted towards the eye to be visible.
 std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
   const auto& springs = scene.model.find<Springs>()->list;
   double spacing = 1e300;
@@ -116,11 +116,11 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
-/// Planes are drawn as floors or slopes, or not at all.
+/// A plane is drawn as a floor or a slope, or not at all.
 bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
 bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
 
-/// Bounding box of the completed runs; empty without planes, because only planes need it.
+/// Bounding box of the completed runs; empty if the scene has no planes, because only planes need the box.
 Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const MethodResult*>& answers) {
   Eigen::AlignedBox3d box;
   if (!scene.model.find<Planes>()) return box;
@@ -166,14 +166,15 @@ int drawable(const Scene& scene, const Trajectory& path, int frame) {
   return frame;
 }
 
-/// True if everything lies in a plane that faces the viewer; then there is no ground.
+/// True if everything lies in a plane that faces the viewer; such scenes are drawn without ground.
 bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
   double depth = 0;
   for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
   return scene.triangles.empty() && depth < 1e-9;
 }
 
-/// The scene's camera gives only the direction: the distance must suit panels of every shape.
+/// Direction towards the eye. Of the scene's camera only the direction is used, because the distance must suit panels
+/// of every shape.
 Vec3 towards_eye(const Scene& scene, bool flat) {
   if (scene.camera) return scene.camera->eye - scene.camera->target;
   return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
@@ -190,13 +191,13 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
   return view;
 }
 
-/// The method, with its step if another picture shows the same method.
+/// Name of the method, with the step if another picture shows the same method.
 std::string title_of(const MethodResult& answer, const std::vector<const MethodResult*>& all) {
   const auto same = std::ranges::count(all, answer.method, &MethodResult::method);
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
-/// The time; for a failed run, also how and when it failed.
+/// Time of the frame; for a failed run, also how and when it failed.
 std::string time_text(const MethodResult& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
   const Outcome& outcome = answer.outcome;
@@ -226,8 +227,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// The motions that view and scale must accommodate. Runs that blew up are excluded, because they would leave neither
-/// room nor colours for others.
+/// The motions that view and scale must accommodate. Runs that blew up are excluded, because next to them other runs
+/// would be too small and too pale.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -253,7 +254,7 @@ struct Seen {
   }
 };
 
-/// The picture without its view and the top of its scale.
+/// The picture without its view and without the top of its scale.
 render::Picture panels_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                           Seen& seen) {
   const std::vector<const MethodResult*> usable = usable_of(scene, answers, shot);
@@ -263,12 +264,12 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   picture.quality = shot.quality;
   picture.text = shot.text;
   const bool strip = shot.mode == Mode::strip;
-  // without springs, stretch cannot be shown
+  // stretch cannot be shown if there are no springs
   const bool no_stretch = shot.mode == Mode::stretch && links_of(scene).empty();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
-  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // for the same slopes in all panels
+  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // gives all panels the same slopes
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
@@ -326,7 +327,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (shown && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // methods for long steps, and one that fails there for comparison
+  // for long steps, show methods that suit them, and one that fails, for comparison
   if (find_method(scene.method).implicit)
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
@@ -338,7 +339,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
 Shot usual_shot(const Scene& scene, bool full) {
   Shot shot;
   shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
-  // soft light is worth its seconds on cloth, but beads look the same without it
+  // soft light takes seconds, which are worth spending on cloth; beads look the same without it
   shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
   shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
   shot.width = 1440;

@@ -11,7 +11,7 @@
 namespace crosscheck {
 
 enum class Mode { shaded, stretch, springs, difference, strip };
-/// Throws InputError that lists the modes.
+/// Mode with this name. Throws InputError that lists the modes.
 Mode mode_named(const std::string& name);
 
 struct Shot {
@@ -27,22 +27,22 @@ struct Shot {
 Shot usual_shot(const Scene& scene, bool full);
 
 /// Results side by side in one view. Omits results without frames; shows a failed run at its last finite frame, with a
-/// note. In mode difference, compares methods with the first. Throws InputError if nothing can be shown.
+/// note. In mode difference, compares all methods with the first one. Throws InputError if nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 
 /// View and scale that make pictures comparable.
 struct CommonView {
   render::View view;
-  double top;  // upper end of the scale, in its unit
+  double top;  // upper end of the scale, in the unit of the scale
 };
 CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common);
 
-/// Viewing direction, and the ground below all of a motion.
+/// Viewing direction, and height of the ground, which is below the entire motion.
 struct CameraPlacement {
   Vec3 from;                    // towards the eye, of any length
-  std::optional<double> floor;  // height, m; empty if everything lies in a plane that faces the viewer
+  std::optional<double> floor;  // m, height of the ground; nullopt if everything lies in a plane that faces the viewer
 };
 /// Camera for these positions, and for the obstacles at these times (s).
 CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& shown,

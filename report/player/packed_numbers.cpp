@@ -13,7 +13,7 @@ Bytef* bytes_of(std::string_view bytes) { return reinterpret_cast<Bytef*>(const_
 
 /// Unpacks exactly `size` bytes.
 std::string gunzipped(std::string_view bytes, size_t size) {
-  constexpr size_t densest = 1032;  // deflate's largest ratio: a received file may claim any size
+  constexpr size_t densest = 1032;  // deflate's largest ratio, which limits the size that a received file may claim
   if (size / densest > bytes.size()) throw std::runtime_error("packed numbers end too early");
   std::string out(size, '\0');
   z_stream stream{};

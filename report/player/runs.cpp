@@ -21,7 +21,7 @@ constexpr int most_frames = 150, most_frames_of_mark = 30, fewest_frames = 25;
 constexpr int most_places = most_frames * 64 * 64;  // frames x particles
 constexpr double largest_number = 65535;
 
-/// Lattice points per size of the scene; infinite: as fine as 16 bits allow.
+/// Number of lattice points per size of the scene; if it is infinite, the lattice is as fine as 16 bits allow.
 constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell = 1024;
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
@@ -31,7 +31,7 @@ struct Frames {
   std::vector<Points> x, v;
 };
 
-/// Frames up to the first that is not finite.
+/// Every `stride`-th frame, up to the first frame that is not finite.
 Frames every(const Trajectory& path, int stride) {
   Frames out;
   for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride))
@@ -41,8 +41,8 @@ Frames every(const Trajectory& path, int stride) {
 
 double distance_from(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
-/// Truncates a failed run where a coordinate has moved by three times the larger of the scene's size and the true
-/// motion's largest displacement, because no camera shows more.
+/// Truncates a failed run where a coordinate has moved by three times the scene's size or the true motion's largest
+/// displacement, whichever is larger, because no camera shows more.
 void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   double reach = scene.size();
   if (truth)
@@ -52,8 +52,8 @@ void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   run.t.resize(keep), run.x.resize(keep), run.v.resize(keep);
 }
 
-/// {"frames", "low", "unit", "bound", "offset", "bytes"}; appends the bytes of the positions. The unit is a power of
-/// two, so that runs of similar size share a lattice, and equal motions have equal numbers.
+/// Returns {"frames", "low", "unit", "bound", "offset", "bytes"} and appends the bytes of the positions to `bytes`. The
+/// unit is a power of two, so that runs of similar size share a lattice, and equal motions have equal numbers.
 Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   Vec3 low = x[0].rowwise().minCoeff(), high = low;
   for (const Points& frame : x)
@@ -82,7 +82,7 @@ Json times_json(const std::vector<double>& t) {
   return {t.front(), t.back()};
 }
 
-/// Adds values with four digits, unless all are unknown.
+/// Adds values with four digits, unless all values are unknown.
 void add_series(Json& json, const char* name, const std::vector<std::optional<double>>& values) {
   if (std::ranges::none_of(values, [](const auto& v) { return v && std::isfinite(*v); })) return;
   for (const auto& v : values) json[name].push_back(v && std::isfinite(*v) ? Json(rounded(*v)) : Json());
@@ -100,7 +100,7 @@ void add_values(Json& json, const Frames& run, const Scene& scene, const std::op
   add_series(json, "error", error), add_series(json, "energy", energy);
 }
 
-/// Why a run failed, without the time.
+/// Reason why a run failed, without the time.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');
@@ -118,8 +118,8 @@ void add_outcome(Json& json, const Outcome& out) {
   if (out.verdict != Verdict::ok) json["failed"] = out.end, json["reason"] = why_failed(out);
 }
 
-/// Smallest multiple of the stride with at most `most` frames after the first; preferably a divisor of the samples, if
-/// that is less than twice as large.
+/// Smallest multiple of the stride that gives at most `most` frames after the first. Prefers a multiple that divides
+/// the number of samples, if it is less than twice as large.
 int thinned(const Scene& scene, int stride, int most) {
   const int least = std::max(1, (scene.samples + stride * most - 1) / (stride * most));
   for (int times = least; times < 2 * least; ++times)
@@ -127,7 +127,8 @@ int thinned(const Scene& scene, int stride, int most) {
   return stride * least;
 }
 
-/// A run from its beginning; for a failed run of a mark, its last pictures. Null without a second frame.
+/// JSON of a run from its beginning, or, if the run failed and belongs to a mark of a chart, of its last pictures. Null
+/// if there is no second frame.
 Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const RecordedRun& run, bool own, double unit,
                std::string& bytes) {
   const bool failed = run.outcome.verdict != Verdict::ok, last = failed && !own;
@@ -144,8 +145,9 @@ Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const Reco
   return json;
 }
 
-/// The cells of a map as a run: each cell's last picture in which no particle is farther from rest than twice the
-/// scene's size, with its time; otherwise the state of rest without a time.
+/// JSON of a map's cells as one run: for each cell, the last picture in which no particle is farther from its position
+/// at rest than twice the scene's size, with the picture's time. If there is no such picture, the cell has the state of
+/// rest and no time.
 Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   std::vector<Points> pictures;
   Json times = Json::array();
@@ -235,7 +237,7 @@ Json take_index(const fs::path& report) {
 
 namespace {
 
-/// Requires `count` values, if the field exists; null stands for an unknown value.
+/// Requires `count` values if the field exists; null stands for an unknown value.
 void require_values(const JsonField& run, const char* name, size_t count) {
   const auto values = run.find(name);
   if (!values) return;

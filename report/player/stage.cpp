@@ -15,7 +15,7 @@ namespace {
 
 Json vector_json(const Vec3& v) { return std::span(v.data(), 3); }
 
-/// Rows as {"count", "columns", "data"} for unpack.ts.
+/// JSON of rows as {"count", "columns", "data"} for unpack.ts.
 Json packed_json(const std::vector<std::uint16_t>& numbers, size_t columns) {
   return {{"count", numbers.size()}, {"columns", columns}, {"data", base64(pack(numbers, columns))}};
 }
@@ -26,10 +26,11 @@ Json triangles_json(const Scene& scene) {
   std::vector<std::uint16_t> corners;
   for (const auto& triangle : scene.triangles)
     for (const int corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner));
-  return packed_json(corners, 6);  // two triangles per cell of a grid
+  return packed_json(corners, 6);  // 6, because a grid's cell has two triangles with three corners each
 }
 
-/// Ends and rest lengths by family: distance constraints, then springs. The first `threads` are drawn on the surface.
+/// Ends and rest lengths by family: distance constraints, followed by springs. The first `threads` of them are drawn on
+/// the surface.
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
   Json families = Json::array();
@@ -65,7 +66,7 @@ Json springs_json(const Scene& scene) {
           {"families", families}};
 }
 
-/// Obstacles, with the centre of a moving one at each time (s).
+/// Obstacles. A moving one has a centre for each of the times (s).
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   Json list = Json::array();
   if (const auto* spheres = scene.model.find<Spheres>())

@@ -17,7 +17,7 @@ struct StageTruth {
 
 /// JSON of a scene whose camera must show these positions. Empty if the scene is too large for the player.
 std::string stage_json(const Scene& scene, const std::vector<Points>& shown, const std::optional<StageTruth>& truth);
-/// JSON of a map's scene, which does not move; `with_text` adds the text with which the lab opens cells.
+/// JSON of a map's scene, which does not move; `with_text` adds the text with which the lab opens the map's cells.
 std::string stage_json(const Scene& scene, bool with_text);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-# Debian package of the Python package; run in the source tree: cpack --config report/python/deb.cmake
+# Debian package of the Python package; to be run in the source tree: cpack --config report/python/deb.cmake
 file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/pyproject.toml" version REGEX "^version = ")
 string(REGEX REPLACE "version = \"(.*)\"" "\\1" version "${version}")
 set(CPACK_GENERATOR DEB)
@@ -15,7 +15,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy, crosscheck")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-matplotlib)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas, jupyter-notebook")
 set(CPACK_PACKAGE_FILE_NAME python3-crosscheck)
-# files that every Debian package has
+# files that every Debian package must contain
 set(papers "$ENV{PWD}/_CPack_Packages/papers")
 file(MAKE_DIRECTORY "${papers}")
 file(COPY_FILE "${CMAKE_CURRENT_LIST_DIR}/../../LICENSE" "${papers}/copyright")

@@ -292,7 +292,7 @@ def run(name, step, scene):
     shape, held = x.shape, np.array(task.get("pins", {}).get("particles", []), dtype=int)
     frames, speeds = [x.copy()], [v.copy()]
     start = time.process_time()
-    with np.errstate(all="ignore"):  # overflows show in the frames
+    with np.errstate(all="ignore"):  # overflows show in the frames, and need no warnings
         for i in range(samples * per_sample):
             scene.t = i * h
             answer = step(x, v, scene, h)

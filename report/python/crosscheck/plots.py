@@ -59,7 +59,7 @@ def shapes(result, scene, axes, times):
     from matplotlib.collections import LineCollection
 
     x = np.asarray(result.positions)
-    x = x[np.isfinite(x).all(axis=(1, 2))]  # up to the failure
+    x = x[np.isfinite(x).all(axis=(1, 2))]  # omits frames after the failure
     plane = is_plane(x)
     if times is None:
         frames = np.unique(np.linspace(0, len(x) - 1, 5).round().astype(int))

@@ -48,7 +48,7 @@ def call(words, answers=(0,)):
                           stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace") as process:
         try:
             out, err = process.communicate()
-        except BaseException:  # such as an interrupt in a notebook; files written so far stay valid
+        except BaseException:  # also for an interrupt in a notebook; files written so far stay valid
             process.terminate()
             raise
     lines = [line for line in (err.strip() or out.strip()).splitlines() if line.strip()]

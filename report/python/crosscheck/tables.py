@@ -89,7 +89,7 @@ def table_of(text, name="table"):
             raise Error(f"{name}:{count + 2 + i}: expected {len(heads)} cells, got {len(row)}")
     columns = [column(cells) for cells in zip(*rows[1:])] if len(rows) > 1 else [np.empty(0) for _ in heads]
     names = [n for n, _ in heads]
-    if len(set(names)) < len(names):  # one quantity in two units
+    if len(set(names)) < len(names):  # a quantity occurs in two units
         names = rows[0]
     out = np.empty(len(rows) - 1, dtype=[(n, c.dtype) for n, c in zip(names, columns)]).view(Table)
     for n, c in zip(names, columns):
