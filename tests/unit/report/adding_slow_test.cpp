@@ -1,5 +1,5 @@
-// A new stepper, term, scene, engine, experiment, chart or assignment needs one new file and rows of one table. Then
-// the whole program knows it.
+// A new stepper, term, scene, engine, experiment, chart or assignment needs one new file and rows in one table, and is
+// then available in the whole program.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::vector<std::string> paths_of(const auto& files) {
 struct Place {
   const char* what;
   std::vector<std::string> tables;
-  const char* list;  // null for headers and files that are no source
+  const char* list;  // null if the new file is not listed: a header, or not a source
 };
 const std::vector<Place> places = {
     {"stepper", {"mysim/steppers/steppers.cpp"}, "mysim/CMakeLists.txt"},
@@ -37,11 +37,12 @@ const std::vector<Place> places = {
     {"experiment", {"experiments/experiment.cpp"}, "experiments/CMakeLists.txt"},
     {"chart", {"report/figures/charts.cpp"}, "report/CMakeLists.txt"},
     {"assignment", {"tests/coursework/grader/assignments.cpp"}, "tests/coursework/CMakeLists.txt"},
-    // list of terms, and the table of their readers
+    // the tables are the list of terms and the table of their readers
     {"term", {"mysim/model/model.h", "mysim/scene/scene.cpp"}, nullptr},
 };
 
-/// All changes apply to the current files, and no file gets more than `most` changes or lines.
+/// Expects that all changes apply to the current files, and that no file gets more than `most` changes or additional
+/// lines.
 void expect_changes(const std::map<std::string, std::vector<Addition::Change>>& files, long most) {
   for (const auto& [path, changes] : files) {
     const std::string before = read_file(source / path, "a source"), after = with_changes(before, changes);
@@ -60,7 +61,7 @@ TEST(Adding, TakesOneFileAndRowsOfTheTable) {
     for (const auto& [path, text] : a.created) EXPECT_FALSE(fs::exists(source / path)) << path;
     EXPECT_EQ(paths_of(a.edited), place.tables);
     EXPECT_EQ(paths_of(a.listed), place.list ? std::vector<std::string>{place.list} : std::vector<std::string>{});
-    // a row, and for sources a declaration
+    // a scene's table gets a row; a table of sources also gets a declaration
     expect_changes(a.edited, a.created.begin()->first.ends_with(".toml") ? 1 : 2);
     expect_changes(a.listed, 1);
   }
@@ -91,8 +92,8 @@ TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {
   }
 }
 
-/// Code that must handle every term (listed in new_term_slow_test) does not compile without the new one. The engine
-/// does.
+/// Code that must handle every term (listed in new_term_slow_test) does not compile until it handles the new one. The
+/// engine's code compiles.
 TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   const Addition term = addition("term");
   for (const char* file : {"mysim/model/system.cpp", "mysim/implicit/newton.cpp"}) {
@@ -104,7 +105,7 @@ TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   EXPECT_TRUE(contains(end.err, "Tide"));
 }
 
-/// Output of the program with an additional stepper, scene, engine and experiment.
+/// Output, including tables, of the program with an additional stepper, scene, engine and experiment.
 std::string told(std::vector<std::string> words) {
   const TemporaryFolder folder("adding");
   words.insert(words.begin(), CROSSCHECK_EXTENDED);
@@ -140,7 +141,7 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
   int figures = 0;
   EXPECT_EQ(looking_alike_in(out / "figures", figures), "");
   EXPECT_GE(figures, 13);
-  // the second built-in method with a spare style, after the new stepper
+  // toy/step is the second built-in method with a spare style, after the new stepper; this is the style's dash
   const std::string chart = read_file(out / "figures/two-masses-error.gp", "a chart");
   EXPECT_TRUE(contains(chart, "toy/step"));
   EXPECT_TRUE(contains(chart, "(7,3,1,3,1,3)"));

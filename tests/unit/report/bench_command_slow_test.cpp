@@ -1,4 +1,4 @@
-// bench on the command line, with a short plan.
+// Tests `bench` on the command line, with a short plan.
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   const JsonField json = JsonField::parse_file(folder_ / "bench.json");
   std::vector<std::string> words{"odeint/rk4", "other model",      "two stiffnesses",        "Bullet's force",
                                  "baseline",   "springs, 40 × 40", "sweep, fastest, double", "60 steps a second"};
-  // some machines have a single core
+  // a machine with a single core does not measure two threads
   if (json["notes"].dump().find("may use one core") == std::string::npos)
     words.insert(words.end(), {"two threads, 64 × 64", "too small for a second", "% of two cores"});
   const JsonField table = json["tables"]["bench-cost"];

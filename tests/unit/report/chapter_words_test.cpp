@@ -1,5 +1,5 @@
-// Findings and charts on stability, energy and the smallest model, from hand-made tables. They must follow the rows,
-// even if rows are missing, contain failures, or contradict theory.
+// Findings and charts on stability, energy and the smallest model, from hand-made tables. They must agree with the
+// rows, even if rows are missing, contain failures, or contradict theory.
 
 #include <algorithm>
 #include <set>
@@ -154,7 +154,8 @@ TEST(StabilityFindings, TheTruthConfirmsLimitsOfScenesWithoutRest) {
   expect_short({both});
   EXPECT_EQ(both.value, 2);
   EXPECT_TRUE(says(sentence_of(both), {"2 of 2", "at most 2 %", "at least 20 %"}));
-  // a run counted as blown up that agrees with the truth, and a stable run that differs much from it
+  // `failed`: leapfrog's run above its limit agrees with the truth; `held`: in addition, rk4's run below its limit
+  // differs much from the truth
   const Finding failed = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 3e-3, 0.09)}),
                 held = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 0.042, 0.09)});
   expect_short({failed, held});
@@ -221,7 +222,7 @@ TEST(ChapterWords, ARunAboveItsLimitIsShownAtItsMoments) {
   ASSERT_EQ(chart->snapshots[0].moments.size(), 4u);
   EXPECT_DOUBLE_EQ(chart->snapshots[0].moments[0].first, 0.35 * 6);
   EXPECT_TRUE(contains(chart->snapshots[0].moments[0].second, "step 6\n2.5 J"));
-  // failures too fast to be visible are not shown
+  // no failure is shown if all of them are too fast to be visible
   failure.rows.resize(2);
   const TableSet fast = rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), failure});
   for (const Chart& each : stability_charts({scenes, facts, fast, "commit"})) EXPECT_FALSE(each.shown);
@@ -382,7 +383,7 @@ TEST(SpeedFindings, TellWhatOtherEnginesTake) {
   std::vector<SpeedAccuracyRow> runs(4);
   runs[0].scene = "rod", runs[0].method = "bullet/pbd";
   runs[1].scene = "circle", runs[1].method = "bullet/pbd", runs[1].verdict = Verdict::unsupported;
-  // one run without a time, and one crash
+  // exec:./mine has one run without a time, and one crash
   runs[2].scene = "rod", runs[2].method = "exec:./mine", runs[2].error = 9e-3, runs[2].motion = 1;
   runs[3].scene = "circle", runs[3].method = "exec:./mine", runs[3].verdict = Verdict::crash;
   const auto all = speed_findings(rows_of({table_with(cheapest), table_with(engines), table_with(runs)}));
@@ -427,7 +428,7 @@ TEST(SpeedFindings, AStepOfBothIsComparedLikeForLikeFirst) {
   EXPECT_TRUE(said({{plain, 8, 1e-6}, {kernel, 8, 1e-6}}).empty());
 }
 
-/// A cloth in contact with a ball until 1 s; its window ends at 0.5 s.
+/// A cloth that is in contact with a ball until the end at 1 s; its comparison window ends at 0.5 s.
 std::vector<Table> touched(double of_rules, double of_bullet) {
   std::vector<EngineRow> runs;
   Table rows = crosscheck::table_of<EngineTimeRow>("drape-engines");
@@ -455,7 +456,7 @@ TEST(SphereFindings, AfterContactEnginesAreStatedWithTheDifferencesOfOwnRules) {
   EXPECT_EQ(f.other, "bullet/deformable-explicit");
   EXPECT_EQ(f.value, 2.97e-3) << "the value at the end, not the maximum";
   EXPECT_TRUE(says(sentence_of(f), {"drape", "500 ms", "3 mm", "0.2 mm", "compared: 2"}));
-  // unpredictable motion makes these numbers large
+  // unpredictable motion makes both differences large
   EXPECT_TRUE(
       says(sentence_of(the(contact_findings(rows_of(touched(0.2, 0.3))), "after-contact")), {"300 mm", "200 mm"}));
 }

@@ -1,4 +1,4 @@
-// Lays out stored chart specs at several widths and prints layout errors.
+// Lays out stored chart specs at several widths and prints errors of the layout.
 
 import {axisOf} from '../../../report/page/chart/axes';
 import {dense, distance} from '../../../report/page/chart/board';

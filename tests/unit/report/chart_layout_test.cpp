@@ -1,4 +1,4 @@
-// Charts of a stored quick report, laid out by the page's code; type checks of the page's scripts.
+// Tests how the page's code lays out charts of a stored quick report, and checks the types in the page's scripts.
 
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"

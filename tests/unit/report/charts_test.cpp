@@ -1,5 +1,5 @@
-// Charts: stacked bars, fastest methods at an accuracy, distances to a method's own finest run; and their numbers on
-// the page.
+// Tests charts (stacked bars, fastest methods at an accuracy, distances to a method's own finest run) and their numbers
+// on the page.
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ StackedBars two_bars() {
 
 TEST(StackedBars, StackEachSignFromZero) {
   const Table data = drawing_of(two_bars()).data;
-  // zero heights have no row
+  // a part of height zero has no row
   const std::vector<std::vector<Cell>> expected = {{"drag", "mysim/a", 1., 0., 2.},
                                                    {"drag", "bullet/b", 2., 0., 1.},
                                                    {"contact (inferred)", "bullet/b", 2., 1., 4.},
@@ -59,7 +59,7 @@ TEST(StackedBars, InferredPartsAreHatchedAndOthersAreNot) {
     EXPECT_EQ(contains(element, "pattern"), inferred) << element;
     (inferred ? hatched : solid) += 1;
   }
-  EXPECT_EQ(hatched, 1u);  // plotted once; the other file formats repeat the plot
+  EXPECT_EQ(hatched, 1u);  // plotted by one command, which other file formats repeat by `replot`
   EXPECT_EQ(solid, 3u);
 }
 
@@ -108,7 +108,7 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
   EXPECT_EQ(number(t, 1, "times mysim"), 2);
   EXPECT_EQ(word(t, 2, "engine"), "bullet");
   EXPECT_EQ(number(t, 2, "times mysim"), 30);
-  // quotient of both intervals: (0.9 60) / (1.2 2) to (1.2 60) / (0.9 2)
+  // the interval 0.9 to 1.2 times 60, divided by the interval 0.9 to 1.2 times 2
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim low"), 22.5);
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim high"), 40);
 }
@@ -175,9 +175,9 @@ TEST(Styles, StandInTheMethodsRows) {
 TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
   Table t = table_of<EngineSpeedRow>();
   for (const double part : {0.1, 0.01, 0.001}) add_by_engine("cloth", part, Measure::error, part, runs, t);
-  // odeint is as fast as mysim here, within the intervals
+  // here the intervals of odeint's and mysim's times overlap, so neither is faster
   add_by_engine("rod", 0.01, Measure::error, 0.01, {point("mysim/xpbd", 1e-3, 2), point("odeint/rk4", 1e-6, 2.1)}, t);
-  // a comparison with a rule of mysim gives no error, and is not in the figure
+  // these rows measure differences from a rule of mysim, which are not errors, so the figure omits them
   add_by_engine("drape", 0.01, Measure::difference, 0.01, runs, t);
   const auto charts = charts_of(t);
   ASSERT_EQ(charts.size(), 1u);
@@ -387,7 +387,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_FALSE(json.find("flat"));
 }
 
-/// Marks by name, with "open " in front if they are not filled.
+/// Names of the marks, which begin with "open " if the marks are not filled.
 std::vector<std::string> marks_of(const JsonField& chart) {
   std::vector<std::string> marks;
   for (const JsonField& part : chart["parts"].elements())
@@ -511,7 +511,8 @@ TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
   EXPECT_EQ(json["panels"][0]["measured"].size(), 1u);
 }
 
-/// Limits of a rule on two scenes, and of rules that need drag, are stable at every step, or have no theory.
+/// Limits of a rule on two scenes, and limits of rules that need drag, that are stable at every step, or that have no
+/// theory.
 std::vector<LimitRow> limit_rows() {
   const auto row = [](const char* scene, const char* method, PredictionKind theory, double predicted, double omega,
                       MeasuredLimit::Kind found, double measured, double held) {
@@ -734,7 +735,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
     EXPECT_FALSE(rows.back().own);
     const Row& last = rows[3];
     EXPECT_DOUBLE_EQ(last.step, scene->step / 2);
-    // order 1: errors e and e/2 have distance e/2; under another law, the error stays while the distance falls
+    // order 1: errors e and e/2 have distance e/2; with a different force law, the error stays while the distance falls
     if (same_law) {
       EXPECT_NEAR(last.error / *last.own, 2, 0.1);
       EXPECT_NEAR(slope(rows[3].error, rows[4].error), 1, 0.05);
@@ -742,9 +743,9 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
       EXPECT_GT(last.error / *last.own, 8);
       EXPECT_NEAR(rows[3].error / rows[4].error, 1, 0.1);
     }
-    // order 1: the remaining errors are 3 and 1 times that of the finest step
+    // order 1: errors 4 e, 2 e and e have distances 3 e and e from the finest run
     EXPECT_NEAR(*rows[2].own / *rows[3].own, 3, 0.1);
-    // errors due to another law have no order
+    // no order is stated for errors due to a different force law
     EXPECT_EQ(result.table("order-slopes")->rows.size(), same_law ? 1u : 0u);
   }
 }
@@ -775,7 +776,7 @@ TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
   TableSet result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
-  // order 2: the distance is the difference of the errors
+  // order 2: here the distance is the difference of the errors
   for (int i = 2; i + 1 < 7; ++i) EXPECT_NEAR((rows[i].error - rows.back().error) / *rows[i].own, 1, 0.02);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mysim/dopri5, odeint/dopri5: steps that follow a tolerance"));

@@ -197,10 +197,11 @@ TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
   EXPECT_EQ(ingredients_text(""), "nothing");
 }
 
-/// Runs of methods with costs on a scene whose motion is 1 m, and a row of the cheapest run within 1 %.
+/// Provides runs of methods with their costs, on a scene whose motion is 1 m, and a row for the cheapest run within 1
+/// %.
 class Take : public testing::Test {
  protected:
-  /// A successful run is accompanied by one with half the step.
+  /// Adds a run. A successful run is accompanied by another with half the step.
   void add_run(const std::string& method, double step, double error, double cpu, Verdict verdict = Verdict::ok) {
     SpeedAccuracyRow run;
     run.scene = scene, run.method = method, run.requested = run.step = step, run.verdict = verdict, run.motion = 1;
@@ -330,7 +331,7 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   EXPECT_TRUE(contains(bound.guides[1].text, "2/ω = 2 ms")) << bound.guides[1].text;
 }
 
-/// Answers of a report on several scenes, with all tables or only the engines' runs.
+/// Provides the answers of a report on several scenes, with all tables or only with the engines' runs.
 class Answers : public Take {
  protected:
   void SetUp() override {

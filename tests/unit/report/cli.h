@@ -40,7 +40,7 @@ class Cli : public testing::Test {
     text << in.rdbuf();
     return text.str();
   }
-  /// Rows without provenance lines, which contain the date.
+  /// Rows of a table without its provenance lines, which contain the date.
   static std::string rows(const fs::path& file) {
     std::istringstream in(read(file));
     std::string out;

@@ -4,7 +4,8 @@
 
 namespace crosscheck::testing_tools {
 
-// regress on the command line: blessed results remain valid, changes are detected, and nothing is blessed by mistake.
+// Tests `regress` on the command line: blessed results remain valid, changes are detected, and nothing is blessed by
+// mistake.
 
 namespace {
 
@@ -124,7 +125,7 @@ TEST_F(CliRegress, OneMethodBesideAnother) {
   const ProgramResult other = regress({"--filter", "spring", "--method", "symplectic-euler", "--against", "leapfrog"});
   EXPECT_EQ(other.status, 1) << other.out;
   EXPECT_NE(other.out.find("moved      spring, mysim/symplectic-euler"), std::string::npos) << other.out;
-  // without contact or springs, an external engine with the same rule agrees exactly
+  // without contact and springs, an external engine with the same rule agrees exactly
   const ProgramResult outside =
       regress({"--filter", "projectile", "--method", "exec:" CROSSCHECK_EXAMPLE, "--against", "symplectic-euler"});
   EXPECT_EQ(outside.status, 0) << outside.out;
@@ -196,7 +197,7 @@ TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
   EXPECT_NE(stale.out.find("stale      my-swing: baseline"), std::string::npos) << stale.out;
 }
 
-/// The quantities of a removed method must not look like success.
+/// If a method was removed, its quantities must not look like a success.
 TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "all of it"}).status, 0);
   EXPECT_EQ(regress({"projectile"}).status, 0);

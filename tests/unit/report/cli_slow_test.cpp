@@ -1,4 +1,4 @@
-// The program on the command line: exit statuses, messages, run, engines, shards of sweeps, advise.
+// Tests the program on the command line: exit statuses, messages, run, engines, shards of sweeps, advise.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ using namespace testing_tools;
 
 TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   const std::string good = own_scene;
-  // writes a faulty copy of the scene, and returns where a message must locate the fault: "FILE:LINE:"
+  // writes a faulty copy of the scene, and returns the prefix with which a message must locate the fault: "FILE:LINE:"
   auto with = [&](const std::string& name, const std::string& from, const std::string& to, const std::string& fault) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
@@ -39,7 +39,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   write("a-file", "");
   struct Row {
     std::vector<std::string> words;
-    std::vector<std::string> expected;  // substrings of the message
+    std::vector<std::string> expected;  // texts that the message must contain
   };
   const Row table[] = {
       {{"run", unknown_key}, {unknown_key_at, "gravity.strength", "unknown key", "acceleration"}},
@@ -159,7 +159,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   const std::string page = with_folds_put_back(read(folder_ / "one/index.html"));
   EXPECT_NE(page.find("Does a scene that nobody shipped work everywhere?"), std::string::npos);
   std::string addresses = page;
-  const std::string svg = "http://www.w3.org/2000/svg";  // a namespace is never loaded
+  const std::string svg = "http://www.w3.org/2000/svg";  // only the name of a namespace, from which nothing is loaded
   for (size_t at; (at = addresses.find(svg)) != std::string::npos;) addresses.erase(at, svg.size());
   EXPECT_EQ(addresses.find("http://"), std::string::npos) << "the page must not need a network";
   EXPECT_EQ(page.find("https://"), std::string::npos);
@@ -199,7 +199,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     answers += finding["topic"].text() == "answer";
   }
   EXPECT_GE(answers, 3);
-  // read back from the engines' memory
+  // certificates contain what was read back from the engines' memory
   EXPECT_NE(read(folder_ / "one/data/certificates.csv").find("mine,bullet/deformable-explicit,"), std::string::npos);
   EXPECT_NE(read(folder_ / "one/data/dictionary.csv").find("certificates,"), std::string::npos);
   EXPECT_EQ(call({"report", "--verify", "one"}).status, 0);
@@ -244,7 +244,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
 }
 
 TEST_F(Cli, ReportClaimsNoAgreementWhereTheMotionIsChaotic) {
-  // four masses without drag for 20 s: any two engines diverge, which is not round-off
+  // four masses without drag for 20 s: any two engines diverge by more than round-off
   std::string text = own_scene;
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
@@ -300,7 +300,7 @@ namespace {
 class CliRun : public Cli {};
 
 TEST_F(CliRun, KilledLeavesNoHalfFile) {
-  // two thousand million steps take minutes, and write frames all the time
+  // two thousand million steps take minutes, during which frames are written continually
   const ProgramResult result = run_program({"timeout", "-s", "KILL", "1", CROSSCHECK_PROGRAM, "run", "chain",
                                             "--duration", "19000", "--step", "1e-5", "--out", "out"},
                                            folder_);
@@ -330,7 +330,7 @@ TEST_F(CliRun, MoreFramesTakeNoMoreMemory) {
   };
   constexpr double frame = 2. * 3 * side * side * sizeof(double) / (1 << 20);  // MiB
   const double few = with_samples(2);
-  // a tenth of the frames' size for variations of the allocator
+  // allows a tenth of the frames' size for variations of the allocator
   EXPECT_LT(with_samples(many) - few, 0.1 * many * frame);
 }
 
@@ -400,7 +400,7 @@ namespace {
 
 class CliSweep : public Cli {
  protected:
-  /// Tables by name, without provenance lines and costs.
+  /// Tables by name, without their provenance lines, and without tables of costs.
   std::map<std::string, std::string> tables(const std::string& out) const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_ / out))
@@ -540,7 +540,7 @@ TEST_F(Cli, AdviseTakesAPartOfTheMotion) {
     EXPECT_EQ(refused.status, 2);
     EXPECT_TRUE(contains(refused.err, fmt::format("such as 1%, got '{}'", wrong))) << refused.err;
   }
-  // a scene without a truth, because its step is too long
+  // this scene has no truth, because its step is too long
   std::string fails = load_scene("jelly").source;
   fails.replace(fails.find("step = 1e-3"), 11, "step = 2e-2");
   write("fails.toml", fails);

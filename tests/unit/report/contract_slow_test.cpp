@@ -1,4 +1,4 @@
-// The example code of report/CONTRACT.md reads a run correctly.
+// Tests that the example code of report/CONTRACT.md reads a run correctly.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"

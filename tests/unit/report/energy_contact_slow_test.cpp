@@ -83,7 +83,7 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   request.methods = find_methods("symplectic-euler,explicit-euler,bullet/deformable-explicit");
   const TableSet rows = computed(energy_points(request));
   const Table& energy = *rows.table("energy");
-  ASSERT_EQ(energy.rows.size(), 6u);  // three on spring, and three on the scene with all terms
+  ASSERT_EQ(energy.rows.size(), 6u);  // three runs on spring, and three on the scene with all terms
   EXPECT_TRUE(contains(rows.notes.at(0), "leaves out circle: a first-order system"));
 
   const size_t told = row_of(energy, "all-at-once", "mysim/symplectic-euler"),
@@ -98,7 +98,7 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   const Table& ledger = *rows.table("all-at-once-ledger");
   for (size_t i = 0; i < ledger.rows.size(); ++i)
     EXPECT_EQ(empty(ledger, i, "residual"), text_at(ledger, i, "method") == "bullet/deformable-explicit");
-  // The motions are equal on average over the pins' fifty periods. If each energy varies randomly by half, two means
+  // Averaged over the pins' fifty periods, both motions are equal. If each energy varies randomly by half, two means
   // differ by 0.5 sqrt(2 / 50) = 0.1.
   for (const char* column : {"drag took", "dashpots took", "wind gave", "pins gave"}) {
     EXPECT_GT(number(energy, told, column), 0.01) << column;
@@ -106,7 +106,7 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   }
   EXPECT_EQ(std::get<long>(energy.at(told, "steps")), 100000);
 
-  // failed runs are rows
+  // failed runs have rows, too
   for (const char* scene : {"spring", "all-at-once"}) {
     const size_t failed = row_of(energy, scene, "mysim/explicit-euler");
     EXPECT_EQ(text_at(energy, failed, "verdict"), "energy");
@@ -120,7 +120,7 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   EXPECT_TRUE(of_rule(findings, "numerical-damping").empty()) << "no method with numerical damping was requested";
   const Finding& bounded = the(findings, "symplectic-energy");
   EXPECT_EQ(bounded.words.at("bounded"), bounded.words.at("all"));
-  // With linear growth, the run is ten times as fast as the truth when q = exp(h omega^2 t / 2) = 10, after 46 s. The
+  // If the growth is linear, the run is ten times as fast as the truth when exp(h omega^2 t / 2) = 10, after 46 s. The
   // verdict comes at the next sample.
   const double end = number(energy, row_of(energy, "spring", "mysim/explicit-euler"), "end");
   const Scene spring = load_scene("spring");
@@ -161,9 +161,9 @@ TEST(ContactExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoSurface) {
   const size_t ours = row_of(depth, "drop-centred", "mysim/symplectic-euler"),
                pbd = row_of(depth, "drop-centred", "bullet/pbd");
   EXPECT_LT(number(depth, ours, "particles"), 1e-9);
-  // Flat triangles with edges of 1/12 m touch a ball of 0.5 m. The centre of an equilateral one is a^2 / 3 / 2R below
-  // the arc (0.46 %). A right one is below by half its longest side squared over 2R (0.69 %), or by 0.84 % if stretched
-  // by a tenth.
+  // Flat triangles with edges of 1/12 m touch a ball of 0.5 m. The centre of an equilateral triangle is a^2 / 3 / 2R
+  // below the arc (0.46 %). The centre of a right triangle's longest side is below the arc by the square of half that
+  // side over 2R (0.69 %), or by 0.84 % if the side is stretched by a tenth.
   EXPECT_GT(number(depth, ours, "triangles"), 0.46);
   EXPECT_LT(number(depth, ours, "triangles"), 0.9);
   EXPECT_GT(number(depth, pbd, "particles"), 0.1);

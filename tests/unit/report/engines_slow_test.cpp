@@ -1,4 +1,4 @@
-// Adapters for Debian's engines are built by `engine`, and follow mysim's rule.
+// Tests that `engine` builds the adapters for Debian's engines, and that they follow mysim's rule.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"
@@ -7,7 +7,7 @@ namespace crosscheck::testing_tools {
 namespace {
 
 struct Packaged {
-  std::string name, options;  // that make it symplectic Euler with drag
+  std::string name, options;  // options: those that make the engine use symplectic Euler with drag
 };
 
 class PackagedEngine : public Cli, public ::testing::WithParamInterface<Packaged> {

@@ -68,7 +68,7 @@ TEST(CurveFigures, AreDrawnWithCategoryNamesOfEveryLength) {
       while (name.size() + 3 <= length) name += "布";
       f.categories = {{0, name + "a"}, {1, std::string(length, 's')}};
       f.curves = {{"mysim/rk4", style_of("mysim/rk4"), {{0, 1}, {1, 2}}, false, true}};
-      const std::string script = drawing_of(f).script;  // throws if the plot has no room
+      const std::string script = drawing_of(f).script;  // throws if the plot is left without space
       EXPECT_EQ(printable(script), script) << length << " in " << set;
     }
 }
@@ -104,7 +104,7 @@ class FigureSet : public InFolder {
           chart.figure);
     }
   }
-  /// Width of the page in points.
+  /// Width of the page in points (1/72 inch).
   double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
   std::vector<Chart> all;
 };
@@ -112,7 +112,7 @@ class FigureSet : public InFolder {
 TEST_F(FigureSet, EveryKindHasTheWidthThatWasAsked) {
   for (const double width : {8.5, 12.0, 17.0}) {
     make({width, 8, false});
-    // a point is 1/72 inch, and gnuplot rounds to whole points
+    // gnuplot rounds the width to whole points
     for (const char* name : {"lines", "bars", "map"}) EXPECT_NEAR(width_of(name), width / 2.54 * 72, 1.01) << name;
   }
 }
@@ -123,7 +123,7 @@ TEST_F(FigureSet, LettersOnThePageHaveTheSizeThatWasAsked) {
     for (const char* name : {"lines", "bars", "map"}) {
       const std::set<double> letters = letters_of(read(folder_ / (std::string(name) + ".pdf")));
       ASSERT_FALSE(letters.empty()) << name;
-      // exponents are separate characters of the same size
+      // superscripts are separate characters of the same size
       EXPECT_NEAR(*letters.begin(), font, 0.05) << name;
       EXPECT_NEAR(*letters.rbegin(), font, 0.05) << name;
     }
@@ -255,7 +255,7 @@ TEST_F(FigureSet, WordsSayWhatEachShows) {
   EXPECT_TRUE(contains(read(folder_ / "CITATION.cff"), "version: \"abc\"\ndate-released: \"2026-11-22\""));
 }
 
-/// Non-ASCII characters in C++ sources.
+/// Non-ASCII characters in the C++ sources of a folder.
 std::set<std::string> letters_in(const std::filesystem::path& folder) {
   std::set<std::string> letters;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -272,7 +272,7 @@ std::set<std::string> letters_in(const std::filesystem::path& folder) {
 TEST_F(FigureSet, APaperWithTheSetCompiles) {
   NEEDS_PROGRAM("pdflatex", "texlive-latex-base", "compiling a paper with a figure set is not tested");
   all = charts();
-  // LaTeX's special characters, and all those in captions
+  // characters with a special meaning in LaTeX, and all that occur in captions
   std::string letters = "a_b & 5 % of #1 {x} ~ ^ \\ $ < >";
   for (const char* room : {"report/figures", "report/findings", "experiments"})
     for (const std::string& letter : letters_in(std::filesystem::path(CROSSCHECK_SOURCE) / room))
@@ -288,7 +288,7 @@ TEST_F(FigureSet, APaperWithTheSetCompiles) {
     paper += "Figure~\\ref{fig:" + words.name + "} is input as it is.\n\\input{" + words.name + "}\n";
   }
   write("paper.tex", paper + "\\end{document}\n");
-  for (int pass = 0; pass < 2; ++pass) {  // twice, to resolve labels
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass resolves labels
     const ProgramResult compiled =
         run_program({"pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"}, folder_);
     ASSERT_EQ(compiled.status, 0) << compiled.out;

@@ -10,15 +10,15 @@ namespace crosscheck::testing_tools {
 
 class InBrowser : public InFolder {
  protected:
-  /// `flags` are added to the usual ones.
+  /// Opens a page. `flags` are added to the usual command-line flags.
   ProgramResult browse(const std::filesystem::path& page, const std::vector<std::string>& flags) const {
     std::vector<std::string> call{"chromium",
                                   "--headless=new",
-                                  "--no-sandbox",  // a container's root has none
+                                  "--no-sandbox",  // the root user of a container has no sandbox
                                   "--use-angle=swiftshader",
                                   "--enable-unsafe-swiftshader",
                                   "--disable-background-networking",
-                                  "--disable-extensions",  // a quarter of the start-up time
+                                  "--disable-extensions",  // saves a quarter of the start-up time
                                   "--disable-component-update",
                                   "--disable-sync",
                                   "--no-first-run",
@@ -27,7 +27,7 @@ class InBrowser : public InFolder {
                                   "--window-size=900,800"};
     if (!real_time_) {
       call.emplace_back("--virtual-time-budget=60000");
-      // a quarter of the pixels, with the same layout: drawing takes most of the time
+      // a quarter of the pixels, with the same layout, because drawing takes most of the time
       call.emplace_back("--force-device-scale-factor=0.5");
     }
     call.insert(call.end(), flags.begin(), flags.end());
@@ -35,10 +35,10 @@ class InBrowser : public InFolder {
     return run_program(call, folder_);
   }
 
-  /// The page reports its end by its load event (real_time.js).
+  /// True if the clock is not simulated; the page then reports its end by its load event (real_time.js).
   bool real_time_ = false;
 
-  /// Script elements with these files of tests/unit/report.
+  /// Script elements that contain these files of tests/unit/report.
   static std::string scripts(const std::vector<std::string>& names) {
     std::string all;
     for (const std::string& name : names)

@@ -1,4 +1,4 @@
-// The lab's page for self-tests, with inner names as globals.
+// The lab's page for self-tests, with internal names as globals.
 import '../../../report/page/lab_page';
 
 import * as engine from '../../../report/page/lab/engine';

@@ -1,4 +1,4 @@
-// Only the lab's engine, for Node.
+// Only the engine of the lab, for Node.
 import {labModule} from '../../../report/page/lab/engine';
 
 Object.assign(globalThis, {labModule});

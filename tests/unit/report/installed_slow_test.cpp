@@ -1,4 +1,4 @@
-// The result of `cmake --install` works without build and source tree.
+// Tests that the result of `cmake --install` works without the build folder and the source tree.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ class Installed : public testing::Test {
   static fs::path work() { return all_->path / "work"; }
   static fs::path program() { return prefix() / "bin/crosscheck"; }
 
-  /// Hides the source tree under an empty mount.
+  /// Runs a command while an empty mount hides the source tree.
   static ProgramResult unseen(const std::string& command) {
     std::vector<std::string> words{"unshare", "--mount"};
     if (geteuid() != 0) words.insert(words.end(), {"--user", "--map-root-user"});
@@ -113,8 +113,8 @@ TEST_F(Installed, TheLibraryIsFoundAndRuns) {
   EXPECT_EQ(rope.status, 0) << rope.err;
   EXPECT_TRUE(rope.out.starts_with("ok after ")) << rope.out;
   // A shallow rope under the weight W = 0.883 N of nine particles is a parabola of depth d. Its tension is W L / (8 d),
-  // and it is longer than L = 1 m by 8 d^2 / (3 L). Springs of E A = k l = 10 N give d^3 = 3 W L^3 / (64 E A).
-  // Neglected slopes and the ten straight pieces change the length by (4 d / L)^2 / 6, or 7 %.
+  // and it is longer than L = 1 m by 8 d^2 / (3 L). For springs with E A = k l = 10 N it follows that d^3 = 3 W L^3 /
+  // (64 E A). The slopes that this neglects, and the ten straight pieces, change the length by (4 d / L)^2 / 6, or 7 %.
   double depth = 0, lost = 0;
   ASSERT_EQ(std::sscanf(rope.out.c_str(), "ok after %*d steps of %*g s: it hangs %lf m deep and has lost %lf J", &depth,
                         &lost),
@@ -144,7 +144,7 @@ TEST_F(Installed, ManualAndCompletionsKnowAllOfHelp) {
   for (const std::string& command : commands) {
     if (command.empty() || command.starts_with("-")) continue;
     EXPECT_TRUE(contains(page, "\n.SS " + command + "\n")) << command;
-    // lines of --help that start with an option
+    // check each line of --help that starts with an option
     const ProgramResult help = run_program({program().string(), command, "--help"}, work());
     EXPECT_EQ(help.status, 0) << command;
     const std::set<std::string> known = completed(command + " --");

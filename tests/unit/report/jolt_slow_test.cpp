@@ -1,4 +1,5 @@
-// Jolt as an engine: npm's build if npm is available, and a native one if CROSSCHECK_JOLT names a source tree of Jolt.
+// Tests Jolt as an engine: npm's build if npm is available, and a native build if CROSSCHECK_JOLT names a source tree
+// of Jolt.
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
  protected:
-  /// Skips npm's build without a registry, and the native one without a source tree.
+  /// Skips npm's build if there is no registry, and the native build if there is no source tree.
   void SetUp() override {
     Cli::SetUp();
     const char* tree = std::getenv("CROSSCHECK_JOLT");
@@ -25,7 +26,8 @@ class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
       GTEST_SKIP() << "this machine has no npm with access to a registry: Jolt is not tested";
   }
   static bool is_native() { return GetParam() == "native"; }
-  /// Moves the program, which must not need files next to it. Returns "" if the build failed.
+  /// Builds the adapter and moves it to another folder, because it must not need files next to it. Returns the method's
+  /// name, or "" if the build failed.
   std::string built() const {
     std::vector<std::string> words{"engine", "jolt", "-o", "made"};
     words.insert(words.end(), from_.begin(), from_.end());
@@ -84,11 +86,13 @@ TEST_P(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
         call({"run", "chain.toml", "--method", fmt::format("{}+n={}", jolt, n), "--out", "chain"});
     ASSERT_EQ(run.status, 0) << run.err;
     const Points end = read_npy(folder_ / "chain/trajectory.npy", 7, 7, 4).back();
-    // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), which a pass from the pin downwards corrects.
-    // Edges with excess lengths e_i satisfy m e_i / (k d^2) = j s with j particles below; a pass leaves (j - 1) s.
+    // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), and one pass from the pin downwards corrects this.
+    // If j particles are below an edge, its excess length e_i satisfies m e_i / (k d^2) = j s; the pass leaves (j - 1)
+    // s.
     const double d = h / n, s = g * d * d * (1 - gamma * d), soft = m / (k * d * d);
     const double sag = (3 * soft + 2) * s + (2 * soft + 1) * s + soft * s;
-    // per sub-step three roundings of 3e-8 m in coordinates below 1 m, which also act as forces on 1 + 2 + 3 particles
+    // in each sub-step there are three roundings of 3e-8 m in coordinates below 1 m; they also act as forces on 1 + 2 +
+    // 3 particles
     const double rounding = 6 * 3 * 3e-8 * soft;
     EXPECT_NEAR(-1.5 - end(1, 3), sag, rounding) << n;
     EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k))
@@ -104,7 +108,8 @@ TEST_P(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
     int power;      // the step is 2^power s
     bool frozen;
   };
-  // units in the last place: 2^-24 m at 0.9 m, 2^-17 m at 100 m; g h^2 is 0.61, 0.15, 1.2 and 0.31 of them
+  // the unit in the last place is 2^-24 m at 0.9 m and 2^-17 m at 100 m; g h^2 is 0.61, 0.15, 1.2 and 0.31 of these
+  // units
   for (const Row& row : {Row{0.9, -14, false}, {0.9, -15, true}, {100, -10, false}, {100, -11, true}}) {
     write("fall.toml", scene_text(0.125, 1, std::ldexp(1, row.power),
                                   fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n", row.height)));

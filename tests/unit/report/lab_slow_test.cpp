@@ -1,5 +1,5 @@
-// mysim as WebAssembly reproduces native results in Node and in a browser, for every shipped scene and stepper. Tests
-// the lab in use.
+// mysim as WebAssembly reproduces native results in Node and in a browser, for every shipped scene and stepper. Other
+// tests use the lab like a reader.
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/in_browser.h"
 
-// clang's package first: CI installs the text between "package" and the next blank
+// the package of clang comes first, because CI installs the text between "package" and the next blank
 #define NEEDS_LAB                                                                                               \
   if (!has_lab_module())                                                                                        \
   GTEST_SKIP() << "package clang,lld,libc++-dev-wasm32,libclang-rt-dev-wasm32,binaryen was not installed when " \
@@ -35,7 +35,7 @@ namespace {
 using namespace testing_tools;
 namespace fs = std::filesystem;
 
-/// `steps` steps with the native build.
+/// A run of `steps` steps by the native build.
 struct NativeRun {
   std::string scene, stepper;
   double duration = 0;
@@ -63,8 +63,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// Runs of all steppers that support the scene. Implicit and adaptive ones stop where a perturbation has grown a
-  /// thousandfold.
+  /// Runs of all steppers that support the scene. Implicit and adaptive steppers stop at the time at which a
+  /// perturbation has grown a thousandfold.
   static std::vector<NativeRun> native_runs(const std::vector<Scene>& scenes, int steps) {
     std::vector<NativeRun> runs;
     for (const Scene& scene : scenes)
@@ -115,8 +115,8 @@ class LabModule : public InBrowser {
         ++exact;
         continue;
       }
-      // solvers stop at a residual of 1e-12: 1e-10 m over a run of some metres, growing at most a thousandfold within a
-      // window
+      // solvers stop at a residual of 1e-12, which means errors of 1e-10 m over a run of some metres; within a window
+      // these grow at most a thousandfold
       EXPECT_NEAR(entry["t"].number(), run.t, 1e-9);
       const std::vector<double> places = entry["places"].numbers();
       ASSERT_EQ(places.size(), static_cast<size_t>(run.x.size()));
@@ -124,10 +124,11 @@ class LabModule : public InBrowser {
       EXPECT_LT(largest_column(x - run.x), 1e-7);
     }
     EXPECT_EQ(i, native.size());
-    EXPECT_GT(exact, 60u);  // 20 scenes, most with seven such rules
+    EXPECT_GT(exact, 60u);  // 20 scenes, most of which have seven rules with exact results
   }
 
-  /// The lab alone, with a self-test in the scope of its scripts. `call` evaluates to the result.
+  /// A page with only the lab, and a self-test in the scope of its scripts. `call` is an expression whose value is the
+  /// test's result.
   fs::path page_with(const std::vector<Scene>& scenes, const std::string& script, const std::string& call) const {
     std::string page = lab_page_html(scenes);
     const std::string own = page_script("lab_page");
@@ -153,8 +154,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// Uses the lab in real time, and turns complaints into failures. `edit` changes the page before; `place` is appended
-  /// to its address.
+  /// Runs the lab in real time, and fails on each line that it reports. `edit` modifies the page before it is loaded;
+  /// `place` is appended to the page's address.
   JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr,
                 const std::string& place = "") {
     real_time_ = true;
@@ -173,7 +174,7 @@ class LabModule : public InBrowser {
     return all;
   }
 
-  /// Expects scenes saved by the lab to give identical bits natively.
+  /// Runs the scenes that the lab saved natively, and expects identical bits.
   static void run_natively(const JsonField& all, size_t count) {
     const auto saves = all.find("saves");
     ASSERT_TRUE(saves);
@@ -195,7 +196,8 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   NEEDS_PROGRAM("node", "nodejs", "mysim is not tested as WebAssembly outside a browser");
   NEEDS_LAB;
   const std::vector<Scene> scenes = shipped();
-  // Node and Chromium share their WebAssembly engine. If Chromium is available, its test covers the long runs.
+  // Node and Chromium use the same WebAssembly engine. If Chromium is available, the test in Chromium covers the long
+  // runs.
   const std::vector<NativeRun> native = native_runs(scenes, on_path("chromium") ? 100 : 1000);
   Json texts = Json::object();
   for (const Scene& scene : scenes) texts[scene.name] = scene.source;
@@ -263,7 +265,7 @@ TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
   EXPECT_GT(marked, 60);
 }
 
-/// Every stepper blows up above its critical step, and not below.
+/// Every stepper blows up above its critical step, but not below it.
 TEST_F(LabModule, BurstsAboveTheMarkAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
@@ -281,7 +283,7 @@ TEST_F(LabModule, NoFrameComputesLongWhileItBursts) {
   NEEDS_CHROMIUM;
   const JsonField all = use(scenes_of({"cloth-hang"}), "labUse.burstsInFrames('cloth-hang')");
   EXPECT_GT(all["frames"].number(), 20);
-  // ms; ignores two frames, because the machine may have been busy
+  // ms; takes the third longest frame, because the machine may have been busy
   EXPECT_LT(all["longest"].numbers().at(2), 100);
 }
 
@@ -369,7 +371,7 @@ TEST_F(LabModule, TabReachesEveryControl) {
   const auto found = all.find("stops");
   ASSERT_TRUE(found);
   const std::vector<std::string> stops = found->texts();
-  // from the head to the picture, its controls, the methods, the scene's numbers and the export buttons
+  // tab stops from the head to the picture, its controls, the methods, the scene's numbers and the export buttons
   auto from = stops.begin();
   for (const char* next :
        {"scene", "language", "picture", "run", "step", "restart", "resetView", "A", "step-A range", "B", "step-B range",
@@ -430,12 +432,12 @@ TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
   ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
   const JsonField saw = JsonField::parse(result.out, "what was touched");
   const JsonField drag = saw["drag"], slider = saw["slider"];
-  // the finger moves 60 px to the left and 40 down; the camera follows in part
+  // the finger moves 60 px to the left and 40 px down; the camera follows partly
   EXPECT_LT(drag["to"][0].number(), drag["from"][0].number() - 30);
   EXPECT_GT(drag["to"][1].number(), drag["from"][1].number() + 15);
   EXPECT_TRUE(drag["byHand"].boolean());
   EXPECT_LT(slider["is"].number(), 0.8 * slider["was"].number());
-  // text above may change by a pixel; a scroll would move the page by 40
+  // the text above may shift the page by a pixel; a scroll would shift it by 40
   for (const JsonField& each : {drag, slider})
     EXPECT_NEAR(each["scrolled"][0][1].number(), each["scrolled"][1][1].number(), 3) << "the page must not scroll";
 }

@@ -1,5 +1,5 @@
-// A run that is watched and changed by hand equals the engine's run bit for bit. A scene starts in the state of
-// [start].
+// A run that is observed and changed by hand equals the engine's run bit for bit. A scene starts in the state given in
+// its section [start].
 
 #include <gtest/gtest.h>
 
@@ -52,11 +52,11 @@ TEST(LiveRun, PredictsTheCriticalStepAndFailsAboveItAlone) {
   for (const Stepper& stepper : steppers()) {
     const std::optional<double> limit = LiveRun(spring).critical_step(stepper);
     if (!limit || !(*limit > 0) || !std::isfinite(*limit)) continue;
-    // above its limit rk4 stays bounded: it throws the mass over its pin, where the spring's force reverses
+    // omit rk4, which stays bounded above its limit: it throws the mass over its pin, where the spring's force reverses
     if (!stepper.symplectic) continue;
     ++tried;
     for (const double part : {0.98, 1.02}) {
-      // ten steps between samples, so that no step is shortened
+      // choose the duration so that there are ten steps between samples, and no step is shortened
       Scene scene = spring;
       scene.samples = 400, scene.duration = 10 * 400 * part * *limit;
       LiveRun live(scene);
@@ -84,7 +84,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.release();
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), place);
-  // a pin stays until it is released
+  // a particle that is pinned stays at its position until it is released
   live.set_pinned(last, true);
   const Vec3 pinned = live.state().x.col(last);
   live.advance(0.1, 1000000);
@@ -92,7 +92,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.set_pinned(last, false);
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), pinned);
-  // a particle that was already pinned stays pinned
+  // a particle that was pinned before it was held is pinned again after its release
   const int pin = scene.model.particles.pins.front();
   live.hold(pin, Vec3(0.05, 0, 0));
   live.release();

@@ -48,7 +48,7 @@ inline std::vector<Finding> of_rule(const std::vector<Finding>& findings, std::s
     if (f.rule == rule) found.push_back(f);
   return found;
 }
-/// Fails and returns an empty finding if there is not exactly one.
+/// Returns the only finding of a rule. Fails and returns an empty finding if there is not exactly one.
 inline Finding the(const std::vector<Finding>& findings, std::string_view rule) {
   const std::vector<Finding> found = of_rule(findings, rule);
   EXPECT_EQ(found.size(), 1u) << rule;
@@ -60,7 +60,7 @@ inline std::vector<std::string> rules_of(const std::vector<Finding>& findings) {
   return rules;
 }
 
-/// Every sentence has at most 30 words, a full stop, a tier, and no placeholder left.
+/// Expects that every sentence has at most 30 words, a full stop and a tier, and that no placeholder is left.
 inline void expect_short(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) {
     const std::string sentence = sentence_of(f);

@@ -1,4 +1,4 @@
-// Mesh sequences, read by independent readers, and by another program if available.
+// Tests sequences of mesh files with independent readers, and with another program if it is available.
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(MeshFiles, TrianglesAreClothLinesAreSprings) {
   EXPECT_EQ(chain.lines, (std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}}));
 }
 
-/// Volume by the divergence theorem; triangles must be counter-clockwise as seen from outside.
+/// Volume by the divergence theorem; the triangles must be counter-clockwise as seen from outside.
 double volume_inside(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
   double six_volumes = 0;
   for (const auto& [a, b, c] : triangles) six_volumes += x.col(a).dot(Vec3(x.col(b)).cross(Vec3(x.col(c))));
@@ -120,7 +120,7 @@ TEST(MeshFiles, ABallIsClosedAndRoundAndSeenFromOutside) {
     for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) EXPECT_TRUE(edges.insert(edge).second);
   for (const auto& [a, b] : edges) EXPECT_TRUE(edges.count({b, a}));
   EXPECT_EQ(x.cols() - edges.size() / 2 + shape.triangles.size(), 2u);  // Euler's characteristic
-  // facets lie below the sphere by second order in the angle pi / 32, in both directions
+  // facets lie below the sphere by a distance of second order in the angle pi / 32, in both directions
   const double ball = 4 * std::numbers::pi / 3 * std::pow(radius, 3), dip = std::pow(std::numbers::pi / 32, 2);
   EXPECT_LT(volume_inside(x, shape.triangles), ball);
   EXPECT_GT(volume_inside(x, shape.triangles), ball * (1 - dip));

@@ -1,5 +1,5 @@
-// Reports that are killed, on a full disk, two at once, or under other locales: earlier results remain, and bytes are
-// identical.
+// Tests reports that are killed, that run on a full disk, two at once, or under other locales: earlier results remain,
+// and bytes are identical.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class OutputOfReport : public Cli {
  protected:
-  /// The smallest possible report.
+  /// Command line of the smallest possible report.
   std::vector<std::string> report(const std::string& out) const {
     return {CROSSCHECK_PROGRAM, "report", "circle", "--quick", "--methods", "rk4,leapfrog", "--out", out};
   }
@@ -25,7 +25,7 @@ class OutputOfReport : public Cli {
     before.insert(before.end(), words.begin(), words.end());
     return run_program(before, folder_, {"CROSSCHECK_LOCK=" + (folder_ / "lock").string()});
   }
-  /// All files of one report are intact, and the user's file is still there.
+  /// Succeeds if all files of one report are intact, and the user's file is still there.
   testing::AssertionResult whole(const fs::path& out) const {
     const auto manifest = read_manifest(out);
     if (!manifest || !manifest->finished) return testing::AssertionFailure() << "no finished result";
@@ -48,7 +48,7 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
   ASSERT_TRUE(whole(folder_ / "out"));
   std::mt19937 random(22);
   int killed = 0;
-  // One kill in each tenth of the run, so that gaps are at most a fifth, as expected for twenty random moments.
+  // Kills one report in each tenth of the run, so that gaps are at most a fifth, as expected for twenty random moments.
   for (int trial = 0; trial < 10; ++trial) {
     const double moment = std::uniform_real_distribution<>(trial, trial + 1)(random) / 10 * 1.05 * seconds;
     killed += start({"timeout", "-s", "KILL", fmt::format("{:.3f}", moment)}, report("out")).status == 128 + 9;
@@ -136,7 +136,7 @@ std::string without_clock(const std::string& text) {
 
 class LocaleCli : public Cli {
  protected:
-  /// The environment has only `entries`, PATH, HOME and the cache of truths.
+  /// Runs the program in an environment that consists only of `entries`, PATH, HOME and the cache of truths.
   ProgramResult bare(const std::vector<std::string>& entries, const std::vector<std::string>& words) const {
     std::vector<std::string> call{"env", "-i", "HOME=" + folder_.string(), "ASAN_OPTIONS=detect_leaks=0"};
     for (const char* kept : {"PATH", "CROSSCHECK_CACHE"})
@@ -161,7 +161,7 @@ class LocaleCli : public Cli {
     }
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
-      // contains the time of writing, and hashes of files with dates
+      // omit crosscheck.json, which contains the time of writing, and hashes of files with dates
       if (entry.is_regular_file() && entry.path().filename() != "crosscheck.json") {
         const std::string ending = entry.path().extension();
         const bool text = ending == ".csv" || ending == ".json" || ending == ".cff";
@@ -191,7 +191,8 @@ TEST_F(LocaleCli, ChangesNoByte) {
   for (const char* file : {"mine-order.svg", "mine-order.pdf", "mine-order.png", "mine-order.csv", "mine-picture.pdf",
                            "mine-picture.png", "figures.json", "run/energy.csv", "still.png"})
     EXPECT_TRUE(plain.contains(file)) << file;
-  // POSIX time zones need no database; offsets include half an hour (St. John's) and three quarters (Kathmandu)
+  // POSIX time zones need no database; the offsets include half an hour (St. John's) and three quarters of an hour
+  // (Kathmandu)
   for (const std::vector<std::string>& entries :
        {std::vector<std::string>{"LC_ALL=C", "TZ=NPT-5:45"},
         {"LC_ALL=POSIX", "TZ=NST3:30NDT"},
@@ -210,7 +211,7 @@ TEST_F(LocaleCli, WithDecimalCommasChangesNoByte) {
       run_program({"localedef", "-i", "de_DE", "-f", "UTF-8", (folder_ / "locales/de_DE.UTF-8").string()}, folder_);
   ASSERT_TRUE(fs::exists(folder_ / "locales/de_DE.UTF-8")) << compiled.err;
   const std::vector<std::string> german{"LOCPATH=" + (folder_ / "locales").string(), "LC_ALL=de_DE.UTF-8"};
-  // bash formats numbers by the locale
+  // bash uses the locale to format numbers
   std::vector<std::string> comma{"env"};
   comma.insert(comma.end(), german.begin(), german.end());
   comma.insert(comma.end(), {"bash", "-c", "printf %.1f 0,5"});

@@ -1,4 +1,4 @@
-// External engines on the command line: conformance, reasons of failures, interrupts.
+// Tests external engines on the command line: conformance, reasons of failures, interrupts.
 
 #include <fmt/format.h>
 
@@ -72,8 +72,8 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
     fs::create_directories(temporary);
     const std::string engine = script(std::string("beating-") + signal, "trap '' INT TERM\nwhile :; do echo >> '" +
                                                                             beats.string() + "'; sleep 0.02; done\n");
-    // Signals only the program, as kill would. Restores the default handler, because shells, and possibly this test's
-    // parent, ignore INT in background processes.
+    // Signals only the program, as kill would. Restores the default handlers, because shells ignore INT in background
+    // processes, and this test's parent may ignore it, too.
     const std::string shell = "set -m\nenv --default-signal=INT,TERM \"$0\" \"$@\" &\nuntil [ -s '" + beats.string() +
                               "' ]; do sleep 0.01; done\nkill -" + signal + " $!\nwait $!\n";
     const ProgramResult ended =
@@ -81,7 +81,7 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
                     folder_, {"TMPDIR=" + temporary.string(), "ASAN_OPTIONS=detect_leaks=0"});
     EXPECT_NE(ended.status, 0);
     ASSERT_TRUE(fs::exists(beats)) << "the engine must have started: " << ended.err;
-    // clean-up may finish after the killed processes
+    // the program may still clean up after the processes are killed
     const auto left = [&] { return std::distance(fs::directory_iterator(temporary), fs::directory_iterator()); };
     for (int tries = 0; tries < 100 && left() > 0; ++tries) usleep(50000);
     EXPECT_EQ(left(), 0);

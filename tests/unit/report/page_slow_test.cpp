@@ -1,4 +1,4 @@
-// The page and its player in a browser: charts, folds, sorted tables, scenes, dark mode, paper, motions.
+// Tests the page and its player in a browser: charts, folds, sorted tables, scenes, dark mode, paper, motions.
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +96,7 @@ class Page : public InBrowser {
     content_.provenance = {{"commit", "abc"}};
     for (const Question& question : questions())
       content_.findings.push_back(made_up(finding_rule(question.rules[0]), "5 mm on 3 scenes"));
-    // a chart of each kind; curves open the chapter, others are folded
+    // the chapter has a chart of each kind: the curves open it, and the others are folded
     Figure curves;
     curves.name = "chain-speed-accuracy-cost", curves.x = {"CPU time / s", true}, curves.y = {"error / m", true};
     curves.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}}, true, true},
@@ -201,7 +201,7 @@ void expect_folds_open_and_their_tables_sort(const JsonField& saw) {
   SCOPED_TRACE("FoldsOpenAndTheirTablesSort");
   EXPECT_EQ(saw["tablesBefore"].number(), 0) << "folded contents must not be in the document";
   EXPECT_EQ(saw["templates"].number(), 0) << "after the fold is opened";
-  // sorted by size in metres; words follow numbers in ascending order
+  // cells are sorted by size in metres; in ascending order, words follow numbers
   const std::vector<std::string> up{"< 3.0 × 10−13 m", "0.5 µm", "900 µm", "1.2 mm",
                                     "20 mm",           "2 m",    "–",      "blew up at 2 s"};
   for (size_t i = 0; i < 16; ++i) EXPECT_EQ(saw["up"][i].text(), up[i / 2]) << i;
@@ -247,7 +247,7 @@ void expect_the_first_screen_moves(const JsonField& saw) {
   EXPECT_TRUE(saw["litTitle"].boolean()) << "a method highlighted in a chart is highlighted in the player";
 }
 
-// one test, because starting a browser takes seconds
+// this is a single test, because starting a browser takes seconds
 TEST_F(Page, IsUsedAsAReaderWouldInLightAndInTheDark) {
   NEEDS_CHROMIUM;
   const auto file = page();

@@ -1,5 +1,5 @@
-// The page keeps units with numbers, explains linked words, and lists every part. An assembled report has the numbers
-// of its charts, scenes and certificates, and its data reproduce the page.
+// The page keeps units with numbers, explains linked words, and lists all of its contents. An assembled report has the
+// numbers of its charts, scenes and certificates, and its data reproduce the page.
 
 #include <nlohmann/json.hpp>
 
@@ -104,7 +104,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 std::string section(const std::string& html, const std::string& id) {
   return between(html, fmt::format("<section class=\"chapter\" id=\"{}\"", id), "</section>");
 }
-/// The visible part after loading.
+/// The part of the page that is visible after loading.
 std::string at_load(std::string html) {
   for (const char* tag : {"template", "script", "style"}) {
     const std::string open = fmt::format("<{}", tag), close = fmt::format("</{}>", tag);
@@ -116,7 +116,7 @@ std::string at_load(std::string html) {
 /// The complete page, with folded contents.
 std::string whole(const PageContent& content) { return with_folds_put_back(page_html(content)); }
 
-/// Links inside the page lead to an element, or to a scene that they open.
+/// Expects that each link inside the page leads to an element, or to a scene that it opens.
 void expect_links_lead_somewhere(const std::string& html) {
   std::set<std::string> targets;
   for (size_t at = html.find("href=\"#"); at != std::string::npos; at = html.find("href=\"#", at + 1))
@@ -168,7 +168,7 @@ TEST(Chapters, AreFiveAndEachAnswersAQuestion) {
   EXPECT_EQ(asked, ids) << "questions must lead to the chapters in order";
 }
 
-/// Two charts and a table in each chapter, and every answer.
+/// A page with two charts and a table in each chapter, and with every answer.
 class WholePage : public InFolder {
  protected:
   void SetUp() override {
@@ -196,7 +196,7 @@ class WholePage : public InFolder {
     write("more-2.csv", "x");
   }
   PageContent content_;
-  std::vector<std::string> answers_, others_;  // in the page's wording
+  std::vector<std::string> answers_, others_;  // as worded on the page
 };
 
 TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
@@ -227,7 +227,7 @@ TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
     }
     EXPECT_TRUE(contains(seen, "<div class=\"teach\">"));
     EXPECT_GT(words_in(between(seen, "<div class=\"teach\">", "</section>")), 40u);
-    // findings, the other chart, the table
+    // a fold for the findings, for the other chart, and for the table
     EXPECT_EQ(count(part, "<details class=\"fold\""), 3);
     EXPECT_EQ(count(part, "<template"), 3);
     EXPECT_EQ(count(part, fmt::format("data-chart=\"more-{}\"", i)), 1);
@@ -404,7 +404,7 @@ TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
 }
 
-/// Shown runs, given a chart's runs: method, step (s), error (m), CPU time (s).
+/// Tests which runs are shown, given a chart's runs: method, step (s), error (m), CPU time (s).
 class ShownRuns : public ::testing::Test {
  protected:
   void chart(const std::string& method, double step, double error, double cpu) {
@@ -479,7 +479,7 @@ TEST_F(PageRoom, IsGivenToTheEnginesRepresentativesFirst) {
   EXPECT_FALSE(runs.take("b-engines", "", notes));
 }
 
-/// A small report: two scenes with a few methods, and their data in the folder.
+/// A small report on two scenes with a few methods, whose data are in the folder.
 class Assembled : public InFolder {
  protected:
   void SetUp() override {
@@ -495,7 +495,7 @@ class Assembled : public InFolder {
     data_.provenance = with_scenes(
         {{"command", "crosscheck report"}, {"commit", "abc"}, {"date", "2026-11-22 10:00:00 UTC"}}, request.scenes);
   }
-  /// Draws no figures and pictures, but records their names.
+  /// Writes the report without drawing figures and pictures, but records their names.
   WrittenReport written(ReportData& data, const std::filesystem::path& folder) {
     drawn_.clear();
     return write_report(data, folder, "", [this](const std::vector<Point>& points) {
@@ -516,13 +516,13 @@ class Assembled : public InFolder {
   std::vector<std::string> drawn_;
 };
 
-/// Charts that are visible when the page opens.
+/// The charts that are visible when the page opens.
 JsonField open_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"application/json\" id=\"open-charts\">";
   return JsonField::parse(between(html, begin, "</script>").substr(begin.size()), "charts in sight");
 }
 
-/// The other charts, unpacked.
+/// The other charts, after unpacking.
 JsonField packed_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
   return JsonField::parse(unpacked_text(between(html, begin, "</script>").substr(begin.size())), "charts");
@@ -570,7 +570,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     EXPECT_EQ(failed, failures);
   }
   EXPECT_GT(compared, 10);
-  // other figures have only numbers and a script
+  // figures that do not open a chapter have only numbers and a script
   for (const std::string& name : drawn_) EXPECT_TRUE(opens_a_chapter(report.page, name)) << name;
 }
 
@@ -649,7 +649,7 @@ TEST_F(WholePage, CountsEachByteInOneBlock) {
 
 TEST_F(Assembled, CertificatesSurviveTheirTable) {
   ASSERT_FALSE(data_.rows.certificates.empty());
-  // texts that look like numbers, and characters that CSV quotes
+  // cells with texts that look like numbers, and with characters that CSV must quote
   data_.rows.certificates[0].rows = {{"mass", "4", "4", "4", Parity::match},
                                      {"pins", "1, 2", "say \"so\"", "two\nlines", Parity::mismatch},
                                      {"law", "", "1e-3", "–", Parity::different_law},

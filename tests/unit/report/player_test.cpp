@@ -56,7 +56,7 @@ std::string all_rows(const TableSet& rows) {
   return all;
 }
 
-/// Copies that outlive the driver.
+/// Copies of recorded runs, which outlive the call that recorded them.
 struct Kept {
   std::string of, method;
   Scene scene;
@@ -90,7 +90,7 @@ class Runs : public InFolder {
       if (each.set == set && each.method == method) return each;
     throw std::out_of_range(set + " by " + method);
   }
-  /// Frames x 3 x particles, by an independent reader.
+  /// Coordinates (frames x 3 x particles), decoded by an independent reader.
   static std::vector<double> coordinates(const RunFile& file, const Json& run) {
     const std::string bytes = InFolder::read(file.file).substr(run["offset"].get<size_t>(), run["bytes"].get<size_t>());
     const size_t columns = 3 * static_cast<size_t>(file.particles);
@@ -101,7 +101,7 @@ class Runs : public InFolder {
     }
     return all;
   }
-  /// Largest difference (m) of a coordinate, with frames `stride` samples apart.
+  /// Largest difference (m) between a coordinate in the file and in the trajectory; frames are `stride` samples apart.
   static double largest_off(const RunFile& file, size_t place, const Trajectory& path, int stride) {
     const Json& run = file.entry["runs"][place];
     const std::vector<double> all = coordinates(file, run);
@@ -210,7 +210,8 @@ TEST(LastFrames, OfAShortRunAreAllOfItAsFarAsItIsFinite) {
   EXPECT_EQ(last.path().frames(), 5);
 }
 
-/// Every method delivers its runs, and rows are identical with and without recording. Counts failed runs.
+/// Expects that every method delivers its runs, and that rows are identical with and without recording. Counts failed
+/// runs.
 void expect_watching_changes_no_row(const std::string& methods, int& failed) {
   Request request;
   request.methods = find_methods(methods);

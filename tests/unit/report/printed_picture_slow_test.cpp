@@ -1,4 +1,4 @@
-// Pictures for print: sizes of letters and pages, and accompanying files.
+// Tests pictures for print: sizes of letters and pages, and accompanying files.
 
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ TEST(PrintedPicture, ShotsHaveTheWidthOfThePaper) {
   const Shot paper = shot_for_print(scene, {8.5, 8, false}, false);
   EXPECT_EQ(paper.width, 1004);
   EXPECT_NEAR(paper.text, 8 / 72.0 * 300, 1e-12);
-  // posters have letters of the same relative size, and at most as many pixels as a page
+  // a poster has letters of the same relative size, and at most as many pixels as a page
   EXPECT_EQ(shot_for_print(scene, {100, 8, false}, false).width, shot_for_print(scene, {30, 8, false}, false).width);
 }
 
@@ -85,7 +85,7 @@ TEST(PrintedPicture, LettersOnThePageHaveTheSizeThatWasAsked) {
   const std::set<double> letters = letters_of(pdf);
   ASSERT_FALSE(letters.empty());
   EXPECT_NEAR(*letters.rbegin(), 8, 0.01);
-  EXPECT_GT(*letters.begin(), 7);  // numbers at the colour bar are smaller
+  EXPECT_GT(*letters.begin(), 7);  // the numbers at the colour bar have the smallest letters
 
   std::ifstream png(folder / "a.png", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(png), {}};
@@ -116,7 +116,7 @@ TEST_F(Cli, FiguresHoldThePictureOfAScene) {
         << ending;
   EXPECT_EQ(render::read_png(folder_ / "one/mine-picture.png").width, 591);
   EXPECT_NE(read(folder_ / "one/mine-picture.txt").find("Scene mine;"), std::string::npos);
-  // a header, and three methods with three particles
+  // one line for the header, and nine for three methods with three particles each
   const std::string positions = rows(folder_ / "one/mine-picture.csv");
   EXPECT_EQ(std::count(positions.begin(), positions.end(), '\n'), 10);
   EXPECT_TRUE(positions.starts_with("method [1],t [s],particle [1],x [m],y [m],z [m]\nmysim/symplectic-euler,0.4"))

@@ -1,4 +1,4 @@
-// The Python package: its own tests with Debian's python3, and `pip install` from the tree.
+// Tests the Python package: its own tests with Debian's python3, and `pip install` from the tree.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_tools;
 
-constexpr auto python = "/usr/bin/python3";  // another python3 may come first in PATH
+constexpr auto python = "/usr/bin/python3";  // because another python3 may come first in PATH
 constexpr auto package_folder = CROSSCHECK_SOURCE "/report/python";
 
 bool imports(const std::string& module) {
@@ -34,7 +34,7 @@ class PythonPackage : public Cli {
             "HOME=" + folder_.string(),
             "TMPDIR=" + folder_.string()};
   }
-  /// Test classes of python/test_package.py.
+  /// Expects success of these test classes of python/test_package.py.
   void expect_good(std::vector<std::string> classes) const {
     for (std::string& name : classes) name = "test_package." + name;
     classes.insert(classes.begin(), {python, "-m", "unittest"});
@@ -82,7 +82,7 @@ TEST_F(PythonPackage, IsInstalledFromTheTreeWithoutANetwork) {
   if (!missing.empty())
     GTEST_SKIP() << fmt::format("package {} is not installed: its installation into an environment is not tested",
                                 fmt::join(missing, ","));
-  // a copy, because setuptools builds next to its sources
+  // install from a copy, because setuptools builds next to its sources
   fs::copy(package_folder, folder_ / "python", fs::copy_options::recursive);
   const std::string own = (folder_ / "venv/bin/python").string();
   const ProgramResult made =

@@ -31,7 +31,8 @@ inline std::vector<std::string> streams_of(const std::string& pdf) {
   return streams;
 }
 
-/// Size of the first page in points. Since version 1.18 cairo compresses the page's description.
+/// Size of the first page in points. The size may be in a compressed stream, because cairo compresses the page's
+/// description since version 1.18.
 inline std::pair<double, double> page_of(const std::string& pdf) {
   std::vector<std::string> texts = streams_of(pdf);
   texts.insert(texts.begin(), pdf);
@@ -43,7 +44,7 @@ inline std::pair<double, double> page_of(const std::string& pdf) {
   return {};
 }
 
-/// Sizes of letters in points.
+/// Sizes of the letters in a PDF, in points.
 inline std::set<double> letters_of(const std::string& pdf) {
   std::set<double> sizes;
   for (const std::string& text : streams_of(pdf)) {
@@ -83,12 +84,12 @@ inline std::string gunzipped(std::string bytes, size_t length) {
 /// gzip in base64.
 inline std::string unpacked_text(const std::string& base64) {
   const std::string bytes = bytes_of_base64(base64);
-  size_t length = 0;  // gzip's last four bytes
+  size_t length = 0;  // the last four bytes of a gzip file
   for (size_t i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
   return gunzipped(bytes, length);
 }
 
-/// The page with folded contents inserted.
+/// Returns the page with the contents of folds inserted.
 inline std::string with_folds_put_back(std::string page) {
   const std::string begin = "<script type=\"text/plain\" id=\"held\">";
   const size_t from = page.find(begin);

@@ -37,8 +37,8 @@ class ReceivedReport : public InBrowser {
     return contains(browse(page, {"--dump-dom"}).out, "data-pwned=\"1\"");
   }
 
-  /// A report on a small cloth whose scene, rows and notes contain the payload. A program that touches PWNED replaces
-  /// rk4. Fingerprints are correct.
+  /// Writes a report on a small cloth whose scene, rows and notes contain the payload. A program that touches PWNED
+  /// replaces rk4. Fingerprints are correct.
   void make_report() const {
     const std::string program = script(std::string("evil") + std::string(payload).substr(9) + ".sh",
                                        "touch '" + (folder_ / "PWNED").string() + "'\n"),
@@ -63,7 +63,7 @@ class ReceivedReport : public InBrowser {
       change(file, fmt::format("\"{}\": [", list),
              fmt::format("\"{}\": [{}{}", list, quoted(payload), json[list].size() > 0 ? "," : ""));
     for (const auto& entry : fs::directory_iterator(folder_ / "rep/figures"))
-      if (entry.path().extension() == ".png") fs::remove(entry.path());  // to be drawn again
+      if (entry.path().extension() == ".png") fs::remove(entry.path());  // so that the report draws the picture again
   }
 };
 
@@ -78,7 +78,7 @@ TEST_F(ReceivedReport, RunsNoScriptInThePageAndNoProgram) {
   const std::string page = read(folder_ / "again/index.html");
   EXPECT_TRUE(contains(page, "onerror")) << "the payload must be in the page";
   NEEDS_CHROMIUM;
-  // folds insert their contents when opened
+  // folds insert their contents when they are opened
   write("opened.html", page +
                            "<script>for (const fold of document.querySelectorAll('details')) fold.open = true;"
                            "</script>");
@@ -112,7 +112,7 @@ TEST_F(ReceivedReport, WithPathsOutsideOrLinksIsRefused) {
   EXPECT_EQ(call({"report", "circle", "--against", "rep", "--out", "a"}).status, 2);
   write_file(file, before);
   change(file, "\"file\":\"runs/", "\"file\":\"../runs/");
-  readers.erase(readers.begin());  // --verify reads no runs
+  readers.erase(readers.begin());  // `report --verify` reads no runs
   expect_refused("../runs/");
   write_file(file, before);
   for (const auto& runs : fs::recursive_directory_iterator(folder_ / "rep/runs"))

@@ -1,5 +1,5 @@
-// Commands in the documentation print the output shown, one after the other in an empty folder. With
-// CROSSCHECK_INSTALLED=/usr, tests the installed pages, program and Python package.
+// Commands in the documentation print the output that it shows, if they run one after the other in an empty folder.
+// With CROSSCHECK_INSTALLED=/usr, the installed pages, program and Python package are tested.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 constexpr auto dots = "…";
 
-/// Dots in `shown` stand for any text.
+/// True if the line is as shown. Dots in `shown` stand for any text.
 bool is_shown(const std::string& line, const std::string& shown) {
   std::string pattern;
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -34,7 +34,8 @@ bool is_shown(const std::string& line, const std::string& shown) {
   return std::regex_match(line, std::regex(pattern));
 }
 
-/// First mismatch, or "". A line of dots stands for any number of lines; otherwise lines must follow each other.
+/// Returns the first shown line that is missing in the output, or "". A line of dots stands for any number of lines;
+/// without it, shown lines must follow each other directly.
 std::string lacking(const std::vector<std::string>& output, const std::vector<std::string>& shown) {
   size_t at = 0;
   bool any = false;
@@ -66,8 +67,8 @@ struct TypedCommand {
   std::vector<std::string> shown;
 };
 
-/// Commands for readers to type: lines after "$ " in ```console blocks, and whole ```sh blocks with the following
-/// ```text block. A block that starts with "# takes" states its duration and is not run. Text after a section "Ten
+/// Commands that readers are meant to type: lines after "$ " in ```console blocks, and whole ```sh blocks with the
+/// ```text block that follows. A block that starts with "# takes" states its duration and is not run. The section "Ten
 /// minutes" is ignored.
 std::vector<TypedCommand> steps_of(const std::string& page) {
   const size_t path = page.find("\n## Ten minutes");
@@ -124,7 +125,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
     fs::create_directories(folder_);
     fs::create_directories(programs_);
     fs::create_symlink(program_, programs_ / "crosscheck");
-    // Debian's, which has NumPy; python3 in PATH may be another
+    // use Debian's python3, which has NumPy; PATH may contain another one
     fs::create_symlink("/usr/bin/python3", programs_ / "python3");
   }
   void TearDown() override {
@@ -140,7 +141,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
   const fs::path program_ = installation().empty() ? CROSSCHECK_PROGRAM : installation() / "bin/crosscheck";
 };
 
-// Finds the program and the package as in an installation.
+// Commands find the program and the package as in an installation.
 TEST_P(Documents, CommandsPrintWhatIsShown) {
   if (run_program({"/usr/bin/python3", "-c", "import numpy"}, "/").status != 0)
     GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tested";
@@ -154,7 +155,7 @@ TEST_P(Documents, CommandsPrintWhatIsShown) {
   const std::vector<TypedCommand> steps = steps_of(page);
   for (const TypedCommand& step : steps) {
     SCOPED_TRACE(step.command);
-    // blessing is refused under CI; pages show a nonzero status by `echo $?`
+    // unset CI, because `--bless` is refused under CI; pages show a nonzero status by `echo $?`
     const ProgramResult end = run_program({"bash", "-c", "unset CI; " + step.command}, folder_, environment);
     if (end.err.find("Nothing here keeps a submission away") != std::string::npos) GTEST_SKIP() << end.err;
     EXPECT_EQ(end.status, 0) << end.err;

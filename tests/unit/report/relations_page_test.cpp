@@ -1,4 +1,4 @@
-// Relations on the page: marks per engine, causes of violations, and findings.
+// Tests relations on the page: marks per engine, causes of violations, and findings.
 
 #include "experiments/check/relations.h"
 #include "report/page/page_parts.h"
@@ -33,10 +33,10 @@ TEST(RelationsOnThePage, HaveARowOfMarksForEachEngineAndTheWorstMarkOfSeveralSce
   const std::string html = relations_html(rows_of_two_engines());
   const std::string marks = html.substr(0, html.find("</table>"));
   EXPECT_EQ(count(marks, "<tr>"), 3);                      // a header and two engines
-  EXPECT_EQ(count(marks, "class=\"match\""), 2) << marks;  // free fall of xpbd, symmetry of mine
-  EXPECT_EQ(count(marks, "class=\"law\""), 1);             // spring order of xpbd
-  EXPECT_EQ(count(marks, "class=\"mismatch\""), 1);        // free fall of mine fails in one of two scenes
-  EXPECT_EQ(count(marks, "class=\"none\""), 2);            // one not applicable, one not checked
+  EXPECT_EQ(count(marks, "class=\"match\""), 2) << marks;  // xpbd: free fall, mine: symmetry
+  EXPECT_EQ(count(marks, "class=\"law\""), 1);             // xpbd: symmetry is broken for a known cause
+  EXPECT_EQ(count(marks, "class=\"mismatch\""), 1);        // mine: free fall fails in one of two scenes
+  EXPECT_EQ(count(marks, "class=\"none\""), 2);            // one relation is not applicable, and one was not checked
   EXPECT_TRUE(contains(marks, std::string(find_relation("mirror").sentence))) << "the header must contain the sentence";
   EXPECT_TRUE(relations_data({}).is_null());
 }

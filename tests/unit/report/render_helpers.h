@@ -10,7 +10,7 @@
 
 namespace crosscheck::render {
 
-/// n x n particles, side 1 m, sagging slightly in the middle.
+/// A cloth of n x n particles and side 1 m, which sags slightly in the middle.
 inline Body cloth(int n, double height) {
   Body body;
   body.x.resize(3, n * n);

@@ -1,4 +1,4 @@
-// Pictures: determinism, visibility, robustness, the view, and golden pictures.
+// Tests pictures: determinism, visibility, robustness, the view, and golden pictures.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -48,7 +48,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
   const Image image = draw(small_picture());
   const auto [least, most] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   EXPECT_GT(*most - *least, 80);
-  // no seam: the rim equals the background bit for bit
+  // no seam is visible, because the rim equals the background bit for bit
   for (int x = 0; x < image.width; ++x) {
     for (const int y : {0, image.height - 1}) {
       const unsigned char* pixel = &image.rgb[3 * std::size_t(y * image.width + x)];
@@ -58,7 +58,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
 }
 
 TEST(Render, BothQualitiesShowTheSameScene) {
-  // positions are the same; light and shadow change much less than the bodies do
+  // positions are the same; the change of light and shadow is much smaller than the effect of the bodies
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
   const Image fast = draw(small_picture(Quality::fast)), still = draw(small_picture(Quality::still));
@@ -90,7 +90,7 @@ TEST(Render, APictureOfNothingIsAnError) {
 }
 
 TEST(Render, PenetrationIsSeen) {
-  // a cloth on the ball hides its top; the same cloth 2 cm inside must not
+  // a cloth on the ball must hide the top of the ball; the same cloth 2 cm inside must not
   Picture on_top = small_picture();
   Body& body = body_of(on_top);
   for (int i = 0; i < body.x.cols(); ++i)
@@ -99,7 +99,7 @@ TEST(Render, PenetrationIsSeen) {
   body_of(inside).x *= 0.33 / 0.352;
   Picture bare = on_top;
   bare.rows[0][0].bodies.clear();
-  // ten times the change that light through a hidden cloth may cause
+  // ten times the limit for the hidden cloth, which may change the image slightly by the light that it transmits
   EXPECT_GT(changed(draw(on_top), draw(bare)), 0.02);
   EXPECT_LT(changed(draw(inside), draw(bare)), 0.002);
 }
@@ -115,7 +115,7 @@ TEST(Render, ShiftOfTwoPercentIsSeen) {
 }
 
 TEST(Render, SceneOfAnyUnitLooksTheSame) {
-  // in millimetres; the frame removes the unit, up to round-off
+  // lengths in millimetres give the same picture up to round-off, because the camera's frame has no unit
   Picture scaled = small_picture();
   body_of(scaled).x *= 1000, scaled.rows[0][0].balls[0].radius *= 1000;
   scaled.view = fit_view({body_of(scaled).x}, scaled.rows[0][0].balls, {0.3, 0.4, 1}, panel_aspect(scaled));
@@ -179,7 +179,7 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   ASSERT_EQ(lettered.height, 270);
   EXPECT_GT(changed(lettered, draw(picture)), 0.01);
 
-  // long titles shrink: the column between the panels and the rims stay clear
+  // long titles shrink, so that the column between the panels and the rims stay clear
   for (int y = 0; y < 28; ++y) {
     for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
   }
@@ -247,7 +247,7 @@ TEST(Render, ViewHoldsEverythingTightly) {
 }
 
 TEST(Render, ViewHasEverythingInItsMiddle) {
-  // the shadow falls far to the side, and may be cut off; the cloth stays centred and large
+  // the shadow falls far to the side, and may be cut off; the cloth must stay centred and large
   Points hanging(3, 4);
   hanging << -1, 1, -1, 1, 0, 0, 3, 3, 0, 0, 0, 0;
   for (const double aspect : {0.5, 1.0, 2.0}) {
@@ -285,8 +285,8 @@ namespace fs = std::filesystem;
 
 const fs::path golden = fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden";
 
-/// `letters`: compares letters, too. Other versions of Cairo may shift them by a fraction of a pixel, which affects a
-/// tenth of the channels in their rows.
+/// If `letters`, letters are compared, too. Other versions of Cairo may shift them by a fraction of a pixel, which
+/// affects a tenth of the channels in their rows.
 bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   if (a.width != b.width || a.height != b.height || a.rgb.empty()) return false;
   std::size_t far = 0, in_letters = 0;
@@ -303,7 +303,7 @@ bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   return far <= a.rgb.size() / 200 && in_letters <= 50 * row / 10;
 }
 
-/// A cloth above its ball, coloured by a value, next to the same cloth as springs.
+/// A cloth above a ball, coloured by a value, next to the same cloth drawn as springs.
 Picture drape(Quality quality) {
   Picture picture = small_picture(quality);
   picture.width = 480, picture.height = 270;
@@ -322,7 +322,7 @@ Picture drape(Quality quality) {
   return picture;
 }
 
-/// Cairo 1.16 drew the golden pictures.
+/// True if letters can equal those of the golden pictures, which Cairo 1.16 drew.
 bool has_golden_letters() {
   return run_program({"pkg-config", "--modversion", "cairo"}, fs::temp_directory_path()).out.starts_with("1.16");
 }

@@ -1,4 +1,4 @@
-// Limits of a hanging cloth, rows of limits, stability maps and their figure.
+// Tests limits of a hanging cloth, rows of limits, stability maps and their figure.
 
 #include <algorithm>
 #include <filesystem>
@@ -71,8 +71,8 @@ TEST(Map, FailsWhereTheoryDrawsTheLineAndHardlyChangesInRunsTenTimesLonger) {
       for (size_t i = 0; i < map.rows.size(); ++i) {
         const double h = std::get<double>(map.at(i, "step")),
                      limit = std::get<double>(limits.at(i / 9, "predicted limit"));
-        // without drag the trapezoidal rule grows by (h omega)^4 / 8 per step, which is too little to measure at short
-        // steps
+        // without drag, the trapezoidal rule grows by (h omega)^4 / 8 per step, which is too little to measure if the
+        // step is short
         const bool slow = limit == 0 && std::string(name) == "mysim/trapezoidal";
         if (!slow && std::abs(h / limit - 1) > 0.02) {
           EXPECT_EQ(std::get<std::string>(map.at(i, "verdict")) == "ok", h < limit) << h << " against " << limit;
@@ -104,9 +104,10 @@ TEST(Map, SaysWhichCellsWereRefusedAndIsNoneWhereAllWere) {
     EXPECT_EQ(std::holds_alternative<std::monostate>(cells.at(i, "end")), longer);
     refused += longer;
   }
-  EXPECT_EQ(refused, 3 * 4);  // h omega = 20, 8.4, 3.6 and 1.5 in each row
+  EXPECT_EQ(refused, 3 * 4);  // four steps in each of three rows: h omega = 20, 8.4, 3.6 and 1.5
   EXPECT_EQ(std::get<long>(rows.table("stability-map-check")->at(0, "cells")), 27 - refused);
-  // leapfrog at a hundred times the stiffness fails before it refuses; at a hundredth nothing fails
+  // at a hundred times the stiffness, leapfrog fails at steps shorter than those that it refuses; at a hundredth,
+  // nothing fails
   EXPECT_TRUE(std::holds_alternative<double>(limits.at(2, "failed")));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(limits.at(0, "failed")));
 
@@ -128,7 +129,7 @@ TEST(Map, KnowsWhatItIsMadeOf) {
   EXPECT_FALSE(map_scene(load_scene("jelly"), false));
   EXPECT_EQ(map_scene(load_scene("jelly"), true)->name, "jelly");
   EXPECT_FALSE(map_scene(load_scene("projectile"), true));
-  // a user's scene with a shipped name
+  // a scene of a user that has the name of a shipped scene
   const Scene own =
       parse_scene(std::regex_replace(text_of("cloth-hang"), std::regex("mass = 0.25"), "mass = 0.5"), "cloth-hang");
   EXPECT_NEAR(map_scene(own, false)->model.particles.mass.sum(), 0.5, 1e-12);
@@ -188,12 +189,12 @@ TEST(Limits, AreRowsWithTheWidthOfTheirBracket) {
   for (const auto& [rows, widest] : {std::pair{&fine, 0.005}, std::pair{&coarse, 0.5}}) {
     const Table& t = *rows->table("stability");
     const double precision = std::get<double>(t.at(0, "precision"));
-    // bisection in the logarithm stops below `widest`; the search climbs in steps of a tenth
+    // bisection of the logarithm stops below `widest`; the search before it climbs in steps of a tenth
     EXPECT_GT(precision, std::min(widest / 2.1, 0.09));
     EXPECT_LE(precision, widest);
     EXPECT_DOUBLE_EQ(precision, std::get<double>(t.at(0, "failed")) / std::get<double>(t.at(0, "held")) - 1);
     EXPECT_LE(std::abs(std::get<double>(t.at(0, "deviation"))), precision);
-    EXPECT_EQ(reason_of(*rows), "");  // within the bracket, a deviation needs no reason
+    EXPECT_EQ(reason_of(*rows), "");  // a deviation within the bracket needs no reason
   }
   EXPECT_GT(std::abs(std::get<double>(coarse.table("stability")->at(0, "deviation"))), 0.01);
   EXPECT_EQ(reason_of(limit_of("bullet/pbd", "spring", {300, 0.1})), "no linear theory: a rule of its own");
@@ -207,14 +208,14 @@ TEST(Failures, OfAClothGrowAsTheoryAndAreSeenInFourMoments) {
   ASSERT_GE(steps.size(), 4u);
   EXPECT_EQ(std::ranges::count(steps, true, &FailureRow::still), 4);
   EXPECT_NEAR(steps[0].h, 1.75 * steps[0].limit, 1e-12);
-  // h omega = 3.5: amplitudes grow by a factor of 10.1 per step, and energies by a hundred
+  // h omega = 3.5: amplitudes grow by a factor of 10.1 per step, and energies by a factor of about a hundred
   EXPECT_NEAR(*steps[0].growth, 103, 3);
   for (size_t i = 0; i < steps.size(); ++i) {
     EXPECT_NEAR(steps[i].t, static_cast<double>(steps[i].step) * steps[i].h, 1e-9);
     EXPECT_EQ(steps[i].step, steps[0].step + static_cast<long>(i));
   }
   EXPECT_GT(steps.back().kinetic, 100 * *steps.back().holding);
-  // identical numbers from the same rule; none from a rule that is not shown
+  // a repetition with the same rule gives identical numbers; a rule that is not shown gives none
   TableSet again;
   add_failure(cloth, find_method("leapfrog"), steps[0].limit, steps[0].growth, again);
   EXPECT_EQ(rows.table("stability-failure")->rows, again.table("stability-failure")->rows);
@@ -241,7 +242,7 @@ TEST(Limits, OfARotationAreThoseOfTheory) {
     EXPECT_EQ(std::get<std::string>(t.at(0, "measurement")), "no stable step");
     EXPECT_EQ(reason_of(rows), "");
     ASSERT_EQ(growth.rows.size(), 3u);
-    // rounding of 1e-16 in each of up to 2000 steps, compared with growth of at least 1.2e-5 per step
+    // in each of up to 2000 steps, rounding errs by 1e-16; the growth per step is at least 1.2e-5
     for (size_t i = 0; i < 3; ++i) EXPECT_LT(std::abs(std::get<double>(growth.at(i, "deviation"))), 1e-8);
   }
 }

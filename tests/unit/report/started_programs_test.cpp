@@ -1,4 +1,4 @@
-// Child processes have a fixed locale and time zone, and complete files.
+// Child processes run with a fixed locale and time zone, and leave complete files.
 
 #include <sys/wait.h>
 
@@ -37,7 +37,7 @@ TEST_F(StartedPrograms, FindWhatTheyAreGivenInPlaceOfIt) {
 
 class Gnuplot : public InFolder {
  protected:
-  /// Warnings of a script that must write `file`, or "failed: " and the message.
+  /// gnuplot's warnings about a script that must write `file`, or "failed: " and the error message.
   std::string said(const std::string& commands, const std::string& file) const {
     write("script.gp", commands);
     try {

@@ -1,4 +1,4 @@
-// Checks in gnuplot scripts that elements of a figure are distinguishable in grey and with colour blindness.
+// Checks in gnuplot scripts that elements of a figure can be distinguished in grey and with colour blindness.
 #pragma once
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ inline std::vector<Eigen::Matrix3d> colour_blindness() {
 inline double lightness_apart(const std::string& a, const std::string& b) {
   return std::abs(lab(linear_light(a))[0] - lab(linear_light(b))[0]);
 }
-/// Smallest difference (CIE 1976) under the three kinds of colour blindness.
+/// Smallest colour difference (CIE 1976) under the three kinds of colour blindness.
 inline double colour_apart(const std::string& a, const std::string& b) {
   double least = 1e300;
   for (const Eigen::Matrix3d& m : colour_blindness())
@@ -59,17 +59,18 @@ inline double colour_apart(const std::string& a, const std::string& b) {
   return least;
 }
 
-// 2.3 is just noticeable for adjacent patches (Mahy et al. 1994); separate patches and marks need three to four times
-// as much.
+// A difference of 2.3 is just noticeable between adjacent patches (Mahy et al. 1994); separate patches and marks need
+// three to four times as much.
 inline constexpr double least_lightness = 8, least_colour = 10;
 
-/// Appearance of all data rows with the same name.
+/// Appearance of all data rows that have the same name.
 struct Look {
   std::set<std::string> colours, dashes, marks, fills;
-  std::string key;  // mark that names the method of these crosses
+  std::string key;  // mark that identifies the method to which these crosses belong
 };
 
-/// True if both have the same number of strokes per period, with the longest ones within a factor of 1.5.
+/// True if both dashes have the same number of strokes per period, and their longest strokes differ by less than a
+/// factor of 1.5.
 inline bool alike_dashes(const std::string& a, const std::string& b) {
   const auto parts = [](std::string text) {
     std::vector<double> strokes;
@@ -85,10 +86,10 @@ inline bool alike_dashes(const std::string& a, const std::string& b) {
   return std::max(longest, other) < 1.5 * std::min(longest, other);
 }
 
-/// Looks by name. Omits elements that stand in a row or panel with its own name.
+/// Looks by name. Omits elements in a row or panel that is labelled with their name.
 inline std::map<std::string, Look> looks_of(const std::string& script) {
   std::map<std::string, Look> looks;
-  std::map<std::string, std::string> signs;  // mark of labels without text, by colour
+  std::map<std::string, std::string> signs;  // marks of labels without text, by colour
   const auto first = [](const std::string& text, const std::string& pattern) {
     std::smatch found;
     return std::regex_search(text, found, std::regex(pattern)) ? found[1].str() : std::string();
@@ -100,7 +101,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
       signs[first(line, "lc rgb \"(#[0-9A-F]{6})\"")] = first(line, "point pt (\\d+)");
     if (line.starts_with("plot ")) plotting = true;
     if (!plotting || line.find(" with ") == std::string::npos) continue;
-    if (line.find("&& $3 == ") != std::string::npos) continue;  // the row has a name
+    if (line.find("&& $3 == ") != std::string::npos) continue;  // a label next to the row names it
     std::string name;
     const std::regex text("eq '([^']*)'");
     for (std::sregex_iterator i(line.begin(), line.end(), text), end; i != end; ++i) name = (*i)[1];
@@ -123,7 +124,8 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
   return looks;
 }
 
-/// Lines differ from marks or boxes; also compares dashes, marks and fillings.
+/// True if two looks differ in more than colour: one is a line and the other a mark or box, or dashes, marks or
+/// fillings differ.
 inline bool differ_in_form(const Look& a, const Look& b) {
   if (a.dashes.empty() != b.dashes.empty() || a.fills != b.fills || a.marks != b.marks || a.key != b.key) return true;
   return std::ranges::any_of(a.dashes, [&](const std::string& d) {
@@ -131,7 +133,7 @@ inline bool differ_in_form(const Look& a, const Look& b) {
   });
 }
 
-/// A line per pair of elements that look alike in grey or with colour blindness.
+/// Returns one line for each pair of elements that look alike in grey or with colour blindness.
 inline std::string looking_alike(const std::string& script) {
   std::string out;
   const std::map<std::string, Look> looks = looks_of(script);
@@ -150,7 +152,7 @@ inline std::string looking_alike(const std::string& script) {
   return out;
 }
 
-/// looking_alike() for all figures in a folder; counts them.
+/// Applies looking_alike() to all figures in a folder, and counts the figures.
 inline std::string looking_alike_in(const std::filesystem::path& folder, int& figures) {
   std::string out;
   figures = 0;

@@ -19,7 +19,7 @@ TEST(TellingApart, SimulatesWhatIsKnownOfColourBlindness) {
   EXPECT_NEAR(lab(linear_light("#FFFFFF"))[0], 100, 1e-3);
   EXPECT_NEAR(lab(linear_light("#777777"))[0], 50.03, 0.01);
   for (const Eigen::Matrix3d& m : colour_blindness())
-    // rows of each matrix sum to one (to the six digits of the table), so that greys do not change
+    // the rows of each matrix sum to one (to the six digits of the table), so that greys do not change
     EXPECT_LT((m * Rgb::Ones() - Rgb::Ones()).cwiseAbs().maxCoeff(), 2e-6);
   EXPECT_LT(colour_apart("#CC6677", "#009E73"), least_colour) << "red and green of the same lightness";
   EXPECT_GT(colour_apart("#0072B2", "#D55E00"), 60) << "blue and orange, with any colour blindness";

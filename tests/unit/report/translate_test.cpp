@@ -1,4 +1,4 @@
-// translate on the command line: to an engine, back, and refusals.
+// Tests `translate` on the command line: conversion to an engine, conversion back, and refusals.
 
 #include <algorithm>
 
@@ -31,7 +31,7 @@ TEST_F(CliTranslate, ThereAndBackIsTheSameScene) {
           "% of the motion", "error bar", "different law", "there.toml"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "there.toml", "--out", "back.toml"}, 0,
          {"spring stiffness k = 90 to 150 N/m; the scene had 90 to 150 N/m", "step h = 0.002 s, n = 4"});
-  // the hash covers everything that engines receive
+  // equal hashes mean that engines receive the same scene
   const auto hash = [&](const std::string& scene) {
     EXPECT_EQ(call({"run", scene, "--duration", "0.02", "--out", "out-" + scene}).status, 0);
     return JsonField::parse_file((folder_ / ("out-" + scene) / "run.json").string())["scene_hash"].text();
@@ -41,7 +41,7 @@ TEST_F(CliTranslate, ThereAndBackIsTheSameScene) {
 
 TEST_F(CliTranslate, AnEnginesNumbersBecomeStiffness) {
   write("own.toml", own_scene);
-  // mu = 0.5 kg for the link to the pin, 1 / 6 kg for the other one: k = mu / h^2 ((1 - 0.5)^-1 - 1)
+  // mu is 0.5 kg for the link to the pin, and 1 / 6 kg for the other link: k = mu / h^2 ((1 - 0.5)^-1 - 1)
   write("numbers.toml", "step = 0.01\nkLST = 0.5\n");
   expect({"translate", "own.toml", "--from", "bullet/pbd", "numbers.toml", "--out", "back.toml"}, 0,
          {"spring stiffness k = 1666.67 to 5000 N/m; the scene had 90 to 150 N/m"});
@@ -91,7 +91,7 @@ TEST_F(CliTranslate, RefusalsNameWhatWasExpected) {
          {"its numbers are not known", "jolt, rapier, box3d, mujoco, godot"});
   expect({"translate", "own.toml", "--to", "rk4", "--iterations", "3"}, 2, {"mysim/rk4 has none to choose"});
   expect({"translate", "chian", "--to", "jolt"}, 2, {"did you mean 'chain'?"});
-  // nothing to translate, and a world that does not support the scene
+  // a scene that has nothing to translate, and a world that does not support the scene
   expect({"translate", "circle", "--to", "bullet/pbd"}, 1, {"has no numbers for circle", "first-order"});
   EXPECT_EQ(call({"translate", "rod", "--to", "bullet/deformable-implicit"}).status, 1);
 }

@@ -1,4 +1,4 @@
-// Mistakes on the command line and in the environment: messages, suggestions, and exit status.
+// Tests mistakes on the command line and in the environment: messages, suggestions, and exit status.
 
 #include <fmt/format.h>
 

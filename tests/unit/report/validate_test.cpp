@@ -1,4 +1,4 @@
-// validate, refusals of excessive sizes, and messages for unknown names.
+// Tests `validate`, refusals of excessive sizes, and messages for unknown names.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ class CliValidate : public Cli {
 };
 
 TEST_F(CliValidate, SaysWhatASceneIs) {
-  // a mass m on a spring k: omega = sqrt(k / m) = 20 rad/s
+  // a mass m on a spring of stiffness k: omega = sqrt(k / m) = 20 rad/s
   write("one.toml",
         "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-2\nwindow = 1\ntolerance "
         "= 1e-3\n"
@@ -48,8 +48,8 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
 }
 
 TEST_F(CliValidate, SaysHowAClothBends) {
-  // A sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m. Bending limits the step more than
-  // springs: its omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm.
+  // For a sheet of rho = 0.2 kg/m^2 and B = 5e-5 N m, the bending length is (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m.
+  // Bending limits the step more than springs: its omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s at a spacing d = 1 cm.
   const std::string text =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 2e-3\nwindow = 1\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [21, 21]\norigin = [0, 0, 0]\nu = [0.2, 0, 0]\n"
@@ -67,7 +67,7 @@ TEST_F(CliValidate, SaysHowAClothBends) {
 }
 
 TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
-  // two bars that coincide in a point but are not connected; the second has no pins
+  // two bars with a common point that are not connected; the second bar has no pins
   const std::string head =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-3\nwindow = 1\ntolerance = "
       "1e-3\n"
@@ -84,7 +84,7 @@ TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
   for (const char* part : {"2, 1 of them held by no pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
                            "particles 1 and 2 start at the same place, but no spring joins their pieces"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
-  // 0.06 kg on 0.2 m^2; the surface of a block is unrelated to its mass
+  // the sheet has 0.06 kg on 0.2 m^2; the surface of a block is unrelated to the block's mass
   write("sheet.toml", head +
                           "[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0, 0.4]\nmass = 0.06\n"
                           "stiffness = { structural = 10 }\n");
@@ -124,11 +124,11 @@ TEST_F(CliValidate, WhatIsTooLargeIsRefusedBeforeItStarts) {
         "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1000000\nstep = 1e-6\nwindow = 1\n"
         "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [60, 60, 60]\norigin = [0, 0, 0]\nu = [1, 0, 0]\n"
         "v = [0, 1, 0]\nw = [0, 0, 1]\nmass = 1\n[grid.stiffness]\nstructural = 1\nshear = 1\nbend = 1\n");
-  // 20 000 s at 50 samples per second are the maximum
+  // the maximum is 20 000 s at 50 samples per second
   expect_refusal({"run", "chain", "--duration", "1e10"},
                  {"--duration", "5e+11 samples", "steps", "days", "B of frames", "a million samples", "20000 s"});
   expect_refusal({"run", "chain", "--step", "1e-13"}, {"a step of 1e-13 s makes", "steps, about", "1e+12", "--step"});
-  // 216000 particles and a million frames of 48 bytes per particle: 10 TB
+  // 216000 particles and a million frames, with 48 bytes per particle and frame: 10 TB
   expect_refusal({"run", "block.toml"}, {"out/run: 1000001 frames", "10.4 TB", "1e+06 steps", "free on the disk"});
   expect_refusal({"compare", "block.toml", "--methods", "rk4,leapfrog"}, {"block", "TB of memory", "216000 particles"});
   EXPECT_EQ(files(), 1);

@@ -47,7 +47,7 @@ TEST_F(ReadCsv, RowsComeBackAsTheyWereWritten) {
   ASSERT_EQ(back.rows.size(), t.rows.size());
   for (size_t i = 0; i < t.rows.size(); ++i) EXPECT_EQ(csv_row(back.rows[i]), csv_row(t.rows[i]));
   EXPECT_EQ(std::get<long>(back.at(0, "steps")), 7);
-  EXPECT_EQ(std::get<std::string>(back.at(2, "note [odd], long")), "12");  // text in a text column
+  EXPECT_EQ(std::get<std::string>(back.at(2, "note [odd], long")), "12");  // a number in a text column is read as text
   EXPECT_TRUE(std::signbit(std::get<double>(back.at(1, "error"))));
 }
 
@@ -87,7 +87,7 @@ TEST(FindingRules, HaveTextsAndTheseAskForNothingElse) {
   for (const auto& [key, text] : finding_texts()) {
     SCOPED_TRACE(key);
     EXPECT_FALSE(text.formula.empty());
-    const FindingRule& rule = finding_rule(key);  // throws if there is none
+    const FindingRule& rule = finding_rule(key);  // throws if there is no such rule
     of_texts.insert(rule.key);
     const std::vector<std::string> words = split(rule.words, ' ');
     for (const std::string& name : placeholders_of(text.sentence)) {
@@ -152,7 +152,7 @@ TEST(FindingRules, NamesOfMethodsAndEnginesAreThoseThatPeopleUse) {
   EXPECT_EQ(listed({"a", "b", "c", "d", "e"}), "a, b, c and 2 more");
 }
 
-/// Two scenes with a few methods, reduced to their data and report.json.
+/// A report on two scenes with a few methods, reduced to its data and report.json.
 class Verify : public InFolder {
  protected:
   void SetUp() override {
@@ -172,7 +172,7 @@ class Verify : public InFolder {
     write_file(folder_ / "report.json", report_json(page, all, {}, rows_, "named"));
     findings_ = all.overall.size() + all.of_scenes[0].size() + all.of_scenes[1].size();
   }
-  /// Replaces the first occurrence.
+  /// Replaces the first occurrence of `from` in a file.
   void replace(const std::string& file, const std::string& from, const std::string& to) {
     std::string text = read(folder_ / file);
     const size_t at = text.find(from);
@@ -199,7 +199,7 @@ TEST_F(Verify, AReportFollowsFromItsData) {
 }
 
 TEST_F(Verify, EveryChangedRowIsNoticed) {
-  // changes each cell of a table that findings depend on, one at a time
+  // change each cell of a table that findings depend on, one at a time
   const Table& engines = *rows_.table("engines");
   const std::string whole = read(folder_ / "data/engines.csv");
   for (size_t row = 0; row < engines.rows.size(); ++row)
@@ -239,8 +239,7 @@ TEST_F(Verify, EveryPartOfAFindingIsComparedWithTheData) {
   ASSERT_FALSE(findings.empty());
   for (const auto& [key, value] : findings.back().items()) {
     if (key == "figure" || key == "evidence")
-      continue;  // `figure` is presentation only; another test covers
-                 // `evidence`
+      continue;  // `figure` is presentation only; another test covers `evidence`
     const std::string line = fmt::format("\"{}\": {}", key, value.dump());
     std::string text = whole;
     const size_t at = text.rfind(line);

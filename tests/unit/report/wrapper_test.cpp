@@ -1,4 +1,4 @@
-// The wrapper at the root of the tree: confirmation before installations, and location of the build. Scripts that
+// Tests the wrapper at the root of the tree: confirmation before installations, and location of the build. Scripts that
 // record their arguments replace apt-get, cmake and ninja.
 
 #include <unistd.h>
@@ -35,7 +35,7 @@ class Wrapper : public Cli {
     for (size_t at = 0; (at = text.find("\n  \"", at)) != std::string::npos; ++at)
       packages += text.substr(at + 4, text.find(':', at) - at - 4) + "\n";
     write("packages", packages);
-    if (geteuid() == 0) {  // lets other users in
+    if (geteuid() == 0) {  // give other users access
       fs::permissions(folder_, fs::perms::owner_all | fs::perms::group_all | fs::perms::others_all);
       for (const auto& entry : fs::recursive_directory_iterator(folder_ / "tree"))
         fs::permissions(entry, fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
@@ -55,7 +55,7 @@ class Wrapper : public Cli {
         {"CI=" + ci, "HOME=" + (folder_ / "home").string(), "XDG_CACHE_HOME=", "STUBS=" + folder_.string(),
          "PATH=" + (folder_ / "bin").string() + ":/usr/bin:/bin:/usr/sbin"});
   }
-  /// Runs as a user without write permission for the tree.
+  /// Starts a command as a user without write permission for the tree.
   ProgramResult start_as_other(std::vector<std::string> words) const {
     const std::vector<std::string> as{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
     words.insert(words.begin(), as.begin(), as.end());
@@ -121,7 +121,7 @@ TEST_F(Wrapper, RunsThroughASymbolicLink) {
 TEST_F(Wrapper, UsesTheBuildOfATreeThatItMayNotWriteTo) {
   if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
   build();
-  write("missing", "");  // only the owner could install them
+  write("missing", "");  // only the tree's owner could install missing packages
   const ProgramResult result = start_as_other({in_tree("crosscheck"), "list", "scenes"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, in_tree("build/release/crosscheck") + " list scenes\n");

@@ -16,14 +16,14 @@ struct Addition {
   std::map<std::string, std::string> created;  // text by path
   struct Change {
     std::string line;         // must occur in the file exactly once
-    std::string replacement;  // the line, or what replaces it, and lines to add
+    std::string replacement;  // the old line with added lines, or lines that replace it
   };
   std::map<std::string, std::vector<Change>> edited;  // tables, by path
-  std::map<std::string, std::vector<Change>> listed;  // source lists of CMake, by path
+  std::map<std::string, std::vector<Change>> listed;  // CMake files with source lists, by path
 };
 
-/// `new: PATH` and the file's text; then `in: PATH` and `list: PATH`, each followed by pairs of lines `after:` and
-/// `add:`, or `line:` and `becomes:`.
+/// Reads `new: PATH` and the file's text; then `in: PATH` and `list: PATH`, each followed by pairs of lines `after:`
+/// and `add:`, or `line:` and `becomes:`.
 inline Addition read_addition(const std::filesystem::path& file) {
   Addition addition;
   std::string* text = nullptr;
@@ -54,7 +54,7 @@ inline Addition read_addition(const std::filesystem::path& file) {
   return addition;
 }
 
-/// Throws std::invalid_argument if a line does not occur exactly once.
+/// Applies changes to a text. Throws std::invalid_argument if a line to change does not occur exactly once.
 inline std::string with_changes(std::string text, const std::vector<Addition::Change>& changes) {
   for (const Addition::Change& change : changes) {
     const std::string line = "\n" + change.line + "\n";
@@ -66,7 +66,7 @@ inline std::string with_changes(std::string text, const std::vector<Addition::Ch
   return text;
 }
 
-/// Writes the new and the changed files below `out`, and next to a new scene, links to the existing ones.
+/// Writes the new and the changed files below `out`. A new scene's folder also gets links to the existing scenes.
 inline void write_addition(const Addition& addition, const std::filesystem::path& source,
                            const std::filesystem::path& out) {
   for (const auto& [path, text] : addition.created) {

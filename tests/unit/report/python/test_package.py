@@ -16,7 +16,7 @@ import crosscheck
 import crosscheck.program
 import crosscheck.tables
 
-package = pathlib.Path(os.environ["CROSSCHECK_PYTHON"])  # the folder with pyproject.toml
+package = pathlib.Path(os.environ["CROSSCHECK_PYTHON"])  # the folder that contains pyproject.toml
 factor = 0.5
 
 
@@ -79,7 +79,7 @@ class Runs(unittest.TestCase):
         self.assertIsInstance(r.velocities, np.memmap)
         self.assertEqual(len(r.times), 11)
         total = sum(r.energies[n] for n in ("kinetic", "elastic", "gravitational"))
-        # rk4 at h omega = 0.013 loses a relative (h omega)^5 in each of 200 steps, of about 10 J
+        # in each of 200 steps, rk4 at h omega = 0.013 loses a fraction (h omega)^5 of about 10 J
         np.testing.assert_allclose(total, total[0], atol=1e-6)
         np.testing.assert_array_equal(r.positions[0], [[0, 0, 0], [0.6, -0.8, 0]])
 
@@ -168,7 +168,7 @@ class Engines(unittest.TestCase):
         s["pins"]["motion"] = {"amplitude": [0.1, 0, 0], "frequency": 1.0, "ramp": 0.1}
         mine, theirs = (crosscheck.run(s, method=m) for m in (euler, "symplectic-euler"))
         self.assertEqual(mine.verdict, "ok")
-        # Only the summation order differs: 200 steps of round-off of 1e-16 m.
+        # Only the summation order differs, which causes round-off of 1e-16 m in each of 200 steps.
         np.testing.assert_allclose(mine.positions, theirs.positions, atol=1e-12)
         self.assertEqual(mine.info["force_evaluations"], 200)
         link = crosscheck.Scene.read("chain-link")
@@ -271,7 +271,7 @@ class Drawn(unittest.TestCase):
             self.addCleanup(os.chdir, before)
             os.chdir(folder)
             for cell in cells:
-                # fewer methods, because the test is about the notebook, not the measurement
+                # run fewer methods, because this test is about the notebook, not about the measurement
                 cell = cell.replace('"leapfrog", "rk4", "suzuki4", "implicit-midpoint", ', '"leapfrog", ')
                 exec(compile(cell, "cell", "exec"), names)
             kept = os.environ.get("CROSSCHECK_KEPT_PICTURE")
