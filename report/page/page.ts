@@ -103,7 +103,7 @@ export function startPage() {
   const base: Record<string, string> =
       {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
 
-  /** A cell as a number in the base unit; null for text. */
+  /** The number in a cell, in the base unit; null if the cell contains text. */
   const number = (text: string) => {
     const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power: string) => `e${power.replace('−', '-')}`);
     const found = /^[<±]?\s*(-?[\d.]+(?:e[+-]?\d+)?)\s*(%|[a-zµ/]*)$/.exec(plain);
@@ -112,7 +112,7 @@ export function startPage() {
         null;
   };
 
-  /** Text of an element; browsers know that of folded content, but not its layout. */
+  /** Text of an element; for folded content, browsers know the text, but not the layout. */
   const wordsIn = (element: HTMLElement) =>
       (element.innerText || element.textContent || '').trim().replace(/\s+/g, ' ');
   const textOf = (row: HTMLTableRowElement, column: number) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
@@ -256,7 +256,7 @@ export function startPage() {
   document.addEventListener(
       'click', ({target}) => target instanceof HTMLElement && target.dataset.figure && choose(target));
 
-  /** Goes to the address: a scene, a fold, or a figure inside one. */
+  /** Goes to the place in the address: a scene, a fold, or a figure inside one of these. */
   const goTo = async () => {
     await putBack;
     const id = decodeURIComponent(location.hash.slice(1));

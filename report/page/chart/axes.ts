@@ -60,7 +60,7 @@ function unitOf({unit = '', log}: AxisSpec, low: number, high: number): [string,
   return found ? [found[0] + unit, found[1]] : [unit, 1];
 }
 
-/** True if no powers of ten are needed. */
+/** True if the values can be written without powers of ten. */
 const isPlain = (values: number[]) => values.every(v => v === 0 || (Math.abs(v) >= 0.9e-3 && Math.abs(v) < 1e6));
 
 /** Round values from low to high, about one per `apart` px. */
@@ -118,7 +118,7 @@ export function titleOf(text: string, x: number, y: number, width: number, ancho
 }
 export const linesOfTitle = (text: string, width: number) => wrapped(text, width, true).length;
 
-/** Title of a horizontal axis, centred if there is room. Returns the y below it. */
+/** Writes the title of a horizontal axis, centred if there is space. Returns the y below the title. */
 export function titleBelow(elements: Element[], text: string, {left, right}: Frame, y: number, width: number): number {
   const half = Math.min(width, widthOf(text, true)) / 2,
         middle = Math.max(half, Math.min((left + right) / 2, width - half));
@@ -134,7 +134,7 @@ export const uprightTicks = (axis: Axis, {left, right}: Frame, grid = true): Ele
                  []),
          label(tick.text, left - 6, tick.place + 4, 'end')]);
 
-/** Labels of a horizontal axis, without overlaps; on request with grid lines. */
+/** Labels of a horizontal axis, without overlaps, and grid lines if `grid` is true. */
 export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid = false): Element[] {
   let end = -Infinity;
   const elements: Element[] = [];
@@ -154,7 +154,7 @@ export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid
   return elements;
 }
 
-/** Names of categories below an axis, slanted if there is no room. `high`: their height. */
+/** Names of categories below an axis, slanted if there is too little space. `high`: height of the names. */
 export function categoryTicks(
     categories: readonly[number, string][], axis: Axis, {left, right, bottom}: Frame,
     width: number): {elements: Element[], high: number} {

@@ -4,7 +4,7 @@ import {Frame} from './axes';
 import {Box, letters, lineHeight, widthOf} from './sheet';
 import {Pair} from './spec';
 
-/** Points along a path, at most `apart` px from each other. */
+/** Points along a path, at distances of at most `apart` px. */
 export function dense(path: readonly Pair[], apart = 6): Pair[] {
   const points: Pair[] = path.slice(0, 1);
   for (let i = 1; i < path.length; ++i) {
@@ -25,7 +25,7 @@ export function distance(box: Box, points: readonly Pair[]): number {
 
 const cell = 3;  // px
 
-/** A box for a text; `more` is only computed if the rest of the cost is low. */
+/** A box for a text. `more` is the part of its cost that is computed only if the other part is low. */
 export interface Candidate {
   box: Box;
   penalty: number;
@@ -53,7 +53,7 @@ export class Board {
 
   add(box: Box) { this.mark(box, 2); }
   addMark([x, y]: Pair) { this.add({left: x - 5, right: x + 5, top: y - 5, bottom: y + 5}); }
-  /** Labels may cross a line that yields. */
+  /** Adds a line. Labels may cross it if `yields` is true. */
   addLine(path: readonly Pair[], yields: boolean) {
     for (const [x, y] of dense(path, cell))
       this.mark({left: x - 1, right: x + 1, top: y - 1, bottom: y + 1}, yields ? 1 : 2);
@@ -73,7 +73,7 @@ export class Board {
     return sum;
   }
 
-  /** Occupies the cheapest box and returns it; null if none is free. */
+  /** Occupies the cheapest box and returns it. Returns null if no box is free. */
   take(boxes: Iterable<Candidate>): Box|null {
     let best = 60, found: Box|null = null;
     for (const {box, penalty, more} of boxes) {
@@ -97,7 +97,7 @@ export const boxOfLines = (lines: readonly string[], left: number, baseline: num
   bottom: baseline + 0.24 * letters + lineHeight * (lines.length - 1)
 });
 
-/** Boxes for a label at the ends and along its curve, where it is nearer to its own curve than to others. */
+/** Boxes for a label at the ends of its curve and along it, where the label is nearest to its own curve. */
 export function* boxesBeside(name: string, paths: readonly Pair[][], others: readonly Pair[]) {
   const width = widthOf(name, true), own = paths.flat();
   const at = (left: number, middle: number, penalty: number) => {

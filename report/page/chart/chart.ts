@@ -38,7 +38,7 @@ function walk(event: KeyboardEvent) {
   chosen.focus({preventScroll: true});
 }
 
-/** Compares the browser's font with Helvetica, which layouts assume. */
+/** Compares the browser's font with Helvetica, for which layouts are computed. */
 function measureFont() {
   const ruler = document.createElement('canvas').getContext('2d'), text = 'Bullet explicit, 0.125 ms';
   if (!ruler) return;

@@ -16,7 +16,7 @@ interface Placed {
 
 const strip = 11;  // px, height of a row of failures
 
-/** A part's crosses share a row if there is room. */
+/** Rows of the crosses. The crosses of a part share a row if there is space. */
 function rowsOf(places: readonly number[][]): {rows: number[][], count: number} {
   const taken: number[][] = [];
   const free = (row: number, all: readonly number[]) =>

@@ -6,7 +6,7 @@ import {clipped} from './board';
 import {Element, element, group, key, KeyEntry, label, lineHeight, pathOf, rectangle, rounded, saying, Sheet} from './sheet';
 import {AxisSpec, MapSpec, Pair} from './spec';
 
-/** Minimum, maximum, and as a factor half the distance of neighbours. */
+/** Minimum, maximum, and half the smallest distance of neighbours on a logarithmic scale, as a factor. */
 function spanOf(values: readonly number[]): [number, number, number] {
   const sorted = [...new Set(values.map(v => Math.round(1e6 * Math.log(v)) / 1e6))].sort((a, b) => a - b);
   let least = Infinity;

@@ -31,7 +31,7 @@ function nameOf({name}: Named, left: number, y: number): Element[] {
   return lines.map((line, k) => label(line, left - 8, y + 4 + lineHeight * (k - (lines.length - 1) / 2), 'end'));
 }
 
-/** Supplied energy to the left of zero, its uses to the right. */
+/** Bars with supplied energy to the left of zero, and the uses of energy to the right. */
 export function bars(chart: BarsSpec, width: number): Sheet {
   const sums = chart.names.map(
       (_, k) => chart.parts.reduce(
@@ -73,7 +73,7 @@ export function bars(chart: BarsSpec, width: number): Sheet {
   return sheetOf(width, below, [...above, ...elements]);
 }
 
-/** A mark with an interval per name and series. */
+/** Chart with a mark and an interval for each name in each series. */
 export function dots(chart: DotsSpec, width: number, colours: Colours): Sheet {
   const ends = chart.series.flatMap(s => s.dots.flatMap(dot => (dot ? [dot[1], dot[2]] : [])));
   const all = [...ends, ...(chart.guides ?? []).map(guide => guide.at)];
@@ -119,7 +119,7 @@ export function dots(chart: DotsSpec, width: number, colours: Colours): Sheet {
 
 const sceneMarks: MarkName[] = ['circle', 'square', 'diamond', 'triangle'];
 
-/** A bar per method up to its largest stable h ω, with a mark per scene and a line for theory. */
+/** Chart with a bar per method up to its largest stable h ω, a mark per scene, and a line for theory. */
 export function limits(chart: LimitsSpec, width: number, colours: Colours): Sheet {
   const narrow = width < 620, high = narrow ? 46 : 32, tall = narrow ? 11 : 14,
         columns = [width - (narrow ? 62 : 84), width - 2];

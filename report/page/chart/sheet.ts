@@ -115,7 +115,7 @@ export const rounded = (value: number) => Math.round(10 * value) / 10;
 
 const drawLine = line();
 
-/** A path without points closer than a third of a px. */
+/** A path; omits points closer than a third of a px to the previous one. */
 export function pathOf(points: readonly Pair[]): string {
   const kept: Pair[] = [];
   for (const [x, y] of points) {
@@ -166,7 +166,7 @@ export interface KeyEntry {
   method?: string;
 }
 
-/** A wrapped key; the centre of its first line is at `top` + 8. Returns the height. */
+/** Draws a wrapped key; the centre of its first line is at `top` + 8. Returns the key's height. */
 export function key(
     elements: Element[], entries: readonly KeyEntry[], left: number, top: number, width: number): number {
   if (!entries.length) return 0;

@@ -30,7 +30,7 @@ function textOfCell(toml: string, kind: string, value: number, step: number) {
   return withNumbers(text, {'time.duration': duration, 'time.step': step});
 }
 
-/** State for a mark of a figure; null if the lab cannot run it. */
+/** The lab's state for a mark of a figure; null if the lab cannot run the mark's method. */
 export function labStateOf(key: string, marker: HTMLElement): LabState|null {
   const {run: chosen = '', step, value} = marker.dataset, {method} = parts(chosen), set = runsOf(key);
   if (!set || !isOfLab(method)) return null;

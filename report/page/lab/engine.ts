@@ -75,7 +75,7 @@ export interface RunSettings {
 type Call = (...values: number[]) => number;
 type Calls = Record<string, Call>&{memory: WebAssembly.Memory, _initialize: () => void};
 
-/** Compiled at the first call; null if the page has no module or the browser does not support it. */
+/** The module, compiled at the first call; null if the page has none, or the browser does not support it. */
 export const labModule = (() => {
   let compiled: Promise<Lab|null>|undefined;
   const compile = async () => {
@@ -133,7 +133,7 @@ export class Lab {
     this.steppers = JSON.parse(instance.text(instance.calls.steppers()));
   }
 
-  /** Accepts options, as in "implicit-euler+linear". */
+  /** The stepper of a method, whose name may have options, as in "implicit-euler+linear". */
   stepperOf(method: string) {
     const [name] = method.split('+');
     return this.steppers.find(stepper => stepper.name === name);
@@ -145,14 +145,14 @@ export class Lab {
 
 const growthBudget = 50;  // ms
 
-/** Scales arrows so that the longest is 1; null if all are zero. */
+/** Scales arrows so that the longest has length 1; null if all are zero. */
 function longestOne(arrows: Float64Array) {
   let most = 0;
   for (let i = 0; i < arrows.length; i += 3) most = Math.max(most, Math.hypot(arrows[i], arrows[i + 1], arrows[i + 2]));
   return most > 0 && Number.isFinite(most) ? arrows.map(part => part / most) : null;
 }
 
-/** A scene and a run. Errors with other causes than the scene or a setting break it. */
+/** A scene and a run. An error that is due to neither the scene nor a setting ends the run. */
 export class Simulation {
   readonly scene: EngineScene;
   byHand = false;
@@ -188,7 +188,7 @@ export class Simulation {
     };
   }
 
-  /** An exception ends the instance. */
+  /** Calls a function of the module. An exception ends the instance. */
   call(name: string, ...values: number[]): number {
     if (this.broken) throw new LabError('fault', 'the run has ended');
     try {
@@ -203,7 +203,7 @@ export class Simulation {
   /** Fastest vibration in the initial state, rad/s; 0 if nothing vibrates. */
   get omega() { return (this.fastest ??= this.call('omega')); }
 
-  /** Predicted critical step, s: 0 if no step is stable, Infinity if all are, null if unknown. */
+  /** Predicted critical step, s: 0 if no step is stable, Infinity if all steps are, null if it is unknown. */
   limit(rule: string) {
     const row = this.lab.steppers.indexOf(this.lab.stepperOf(rule)!);
     if (row < 0) return null;
@@ -227,7 +227,7 @@ export class Simulation {
     this.remember();
   }
 
-  /** Steps until t (s), or for at most `budget` ms of computing. Returns true while the run goes on. */
+  /** Steps until t (s), but computes for at most `budget` ms. Returns true while the run goes on. */
   advance(t: number, budget = Infinity) {
     const until = performance.now() + budget;
     let most = 1;  // number of steps until the clock is read again
@@ -249,7 +249,7 @@ export class Simulation {
     return this.going;
   }
 
-  /** Saves the state, in case the next one is not finite. */
+  /** Saves the state, in case the next state is not finite. */
   private remember() {
     this.outcome = null;
     this.last = {positions: this.positions.slice(), velocities: this.velocities.slice(), t: this.t};

@@ -51,14 +51,14 @@ export interface Before {
 }
 
 type Memory = Record<string, number>;
-/** Observations: before the guess, in all runs of a step, in its present run. */
+/** Observations before the guess, in all runs of a step, and in its present run. */
 export interface Seen {
   before: Before;
   all: Memory;
   run: Memory;
 }
 
-/** A state of the lab: changed numbers of a scene's own text, a further edit of it, the camera. */
+/** A state of the lab: a scene, changed numbers of its text, a further edit of that text, the camera. */
 export interface GuideState {
   scene: string;
   numbers: Changes;
@@ -93,7 +93,7 @@ export interface GuideExperiment {
   steps: GuideStep[];
 }
 
-/** A growing motion, the positions at which to draw it, and the length of its longest arrow, m. */
+/** A growing motion, the positions at which to draw it, and the length (m) of the longest arrow. */
 export interface Mode {
   mode: Float64Array;
   places: Float64Array;
@@ -130,7 +130,7 @@ function sharpestFold(x: Places, columns: number, rows: number) {
   return Math.acos(Math.max(-1, least)) * 180 / Math.PI;
 }
 
-/** Share of the pairs two cells apart that move against each other, weighted by their motion. */
+/** Fraction of the pairs at a distance of two cells that move in opposite directions, weighted by motion. */
 function opposedPart(mode: Float64Array, columns: number, rows: number) {
   let against = 0, all = 0;
   const pair = (p: number, q: number) => {
@@ -148,7 +148,7 @@ function opposedPart(mode: Float64Array, columns: number, rows: number) {
 
 /** Amplification of a vibration per leapfrog step with h omega = a; 1 for a <= 2. */
 const leapfrogFactor = (a: number) => (a <= 2 ? 1 : (a / 2 + Math.sqrt(a * a / 4 - 1)) ** 2);
-/** Amplification of a radius per RK4 step. */
+/** Amplification of a radius per RK4 step with h omega = a. */
 const rk4Factor = (a: number) => Math.sqrt(1 - a ** 6 / 72 + a ** 8 / 576);
 
 
@@ -178,9 +178,9 @@ const circle = (numbers: Changes, ...methods: Row[]) => ({...state('circle', num
 const pendulum = (...method: Row) => state('pendulum', {'time.samples': 200}, method);
 const hangingCloth = (step: number, numbers: Changes = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
 const heavyCloth = (step: number, {mass}: Before) => hangingCloth(step, {'grid.mass': 4 * mass});
-/** Slow motion, because a burst takes less than a tenth of a second. */
+/** Makes a state run slowly, because a blow-up takes less than a tenth of a second. */
 const slowly = (speed: number, what: GuideState) => ({...what, speed});
-/** A view from above, which shows motions within the cloth. */
+/** Shows a state from above, where motions within the cloth are visible. */
 const fromAbove = (what: GuideState) => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
 const allSprings = (k: number) =>
     ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});

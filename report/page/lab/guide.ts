@@ -10,7 +10,7 @@ import {labScenes, sceneText} from './lab_runs';
 import {numberAt, valueAt, withNumbers} from './scene_text';
 import {labLanguage, say} from './words';
 
-/** Numbers of the lab for the experiments; null before its first run. */
+/** Numbers of the lab for the experiments; null before the lab's first run. */
 export function readingOf(lab: LiveLab): Reading|null {
   const {reading} = lab;
   if (!reading) return null;
@@ -74,7 +74,7 @@ export const guideProgress = (() => {
   let done: Record<string, Result> = {};
   try {
     done = JSON.parse(sessionStorage.getItem(key) ?? '{}');
-  } catch { /* pages of a folder may have no storage */
+  } catch { /* a page opened from a folder may have no storage */
   }
   return {
     of: (experiment: GuideExperiment, step: GuideStep): Result | undefined => done[nameOf(experiment, step)],
@@ -82,7 +82,7 @@ export const guideProgress = (() => {
       done[nameOf(experiment, step)] = result;
       try {
         sessionStorage.setItem(key, JSON.stringify(done));
-      } catch { /* as above */
+      } catch { /* there may be no storage */
       }
     },
     finished: (experiment: GuideExperiment) => experiment.steps.every(step => done[nameOf(experiment, step)])
@@ -91,12 +91,12 @@ export const guideProgress = (() => {
 
 const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
 
-/** Writes the experiment's address, so that links can open it, or removes it. */
+/** Writes the experiment into the page's address, so that links can open it, or removes it there. */
 function writeExperiment(name: string|null) {
   if (!name && !experimentOfAddress()) return;
   try {
     history.replaceState(null, '', name ? `#experiment=${name}` : location.href.replace(/#.*/, ''));
-  } catch { /* the address stays */
+  } catch { /* the browser does not allow it: the address stays */
   }
 }
 
@@ -193,7 +193,7 @@ class LabGuide extends HTMLElement {
     this.look();
   }
 
-  /** Accepts the reader's guess, or null for none. */
+  /** Accepts the reader's guess, or null if the reader made none. */
   private async take(guess: string|number|null) {
     if (!this.step || !this.seen.before) return;
     Object.assign(this, {guess, phase: 'try'});
@@ -219,7 +219,7 @@ class LabGuide extends HTMLElement {
         {block: 'nearest', behavior: stillWanted.matches ? 'auto' : 'smooth'});
   }
 
-  /** Processes a reading: the question's numbers may be known, or the task done. */
+  /** Checks the lab: the question's numbers may be known now, or the task completed. */
   private look() {
     const {step, seen} = this, r = step && !this.setting && this.isConnected ? readingOf(this.lab) : null;
     if (!r || !step) return;
@@ -268,7 +268,7 @@ class LabGuide extends HTMLElement {
     return next ? this.begin(next, 0) : this.showSandbox();
   }
 
-  /** The next experiment; undefined after the last. */
+  /** The next experiment; undefined after the last one. */
   private get following(): GuideExperiment|undefined {
     const all = experimentsHere();
     return all[all.findIndex(each => each === this.experiment) + 1];

@@ -7,7 +7,7 @@ import {minus, norm, placeOf, plus, Vec3} from '../player/vectors';
 import {LiveRun} from './live_run';
 import {LiveStage} from './live_stage';
 
-/** Pixels within which a pointer or finger meets a particle. */
+/** Distance in pixels within which a pointer or finger grabs a particle. */
 const reachOf = (type: string) => type === 'touch' ? 30 : 16;
 
 interface At {
@@ -26,7 +26,7 @@ export interface HandActs {
   runs(): (LiveRun|null)[];  // drawn runs, by panel
   draw(): void;
   hover(on: boolean): void;
-  /** Returns false if there is nothing to hold. */
+  /** Holds a particle at a position. Returns false if that is impossible. */
   hold(particle: number, place: Vec3, run: LiveRun): boolean;
   release(): void;
   choose(particle: number|null): void;

@@ -7,7 +7,7 @@ import {LiveRun} from './live_run';
 import {Changes, MethodSpec, numberAt, numbersOf, stepOf, tomlNumber, Value, valueAt} from './scene_text';
 import {labLanguage, labWords, say} from './words';
 
-/** Ranges are relative to the scene's own value. */
+/** A slider. Its range is relative to the scene's own value. */
 interface KnobRow {
   path: string;
   scales?: string[];  // subpaths whose numbers are scaled together
@@ -61,7 +61,7 @@ let knobCount = 0;
 
 type Changed = (value: number, done: boolean) => void;
 
-/** Range of a slider; `snap` maps a value to a possible one. */
+/** Range of a slider; `snap` maps a value to the nearest possible value. */
 interface Reach {
   low: number;
   high: number;
@@ -129,7 +129,7 @@ class Slider {
   }
 }
 
-/** Sliders for a scene's own numbers; the first few are visible, others folded. */
+/** Sliders for a scene's own numbers; the first few are visible, and the others are folded. */
 export class SceneKnobs {
   readonly box: HTMLElement = make('div', {class: 'knobs'});
   private knobs: {row: KnobRow, slider: Slider}[] = [];
@@ -163,7 +163,7 @@ export class SceneKnobs {
 
   private pathOf({path, scales}: KnobRow) { return scales ? `${path}.${scales[0]}` : path; }
 
-  /** True if the text has the number, not zero, and equal wherever it occurs. */
+  /** True if the text has the number, with the same nonzero value wherever it occurs. */
   private has(row: KnobRow, toml: string) {
     if (row.scales && row.scales.filter(k => numberAt(toml, `${row.path}.${k}`)).length < 2) return false;
     const path = this.pathOf(row), all = numbersOf(toml).filter(e => e.path === path).map(e => tomlNumber(e.value));

@@ -281,7 +281,7 @@ export class LiveLab extends LabPicture {
     if (this.view) this.view.speed.value = String(speed);
   }
 
-  /** Makes a change, then runs if the lab was running or a run had ended by itself. */
+  /** Makes a change. The lab then runs if it was running, or if a run had ended by itself. */
   private goOn(change: () => void) {
     const over = this.runs.some(run => run.ended && !run.refusal) && !stillWanted.matches;
     const runs = this.playing || over;
@@ -489,7 +489,7 @@ export class LiveLab extends LabPicture {
     this.together();
   }
 
-  /** After a change by hand, runs and truth continue from the state of one run. */
+  /** After a change by hand, makes runs and truth continue from the state of one run. */
   private together() {
     const {source} = this, well = source && this.runs.includes(source) && !source.failed;
     const from = well ? source : this.runs.find(run => !run.failed && !run.refusal);
@@ -565,7 +565,7 @@ export class LiveLab extends LabPicture {
     this.showNow(true);
   }
 
-  /** Updates the clock, and about ten times per second curves and readings. */
+  /** Updates the clock, and, about ten times per second, curves and readings. */
   showNow(all: boolean, now = performance.now()) {
     const {view, runs} = this;
     if (!view) return;
@@ -612,7 +612,7 @@ export class LiveLab extends LabPicture {
     view.truthWords.textContent = this.truthWords();
   }
 
-  /** Describes the truth, or why there is none. */
+  /** Describes the truth, or states why there is no truth. */
   private truthWords() {
     const {truth, truthGone} = this;
     if (truthGone === 'slow') return say('truthSlow', {ms: Number(this.truthCost.toPrecision(2))});

@@ -18,7 +18,7 @@ const previewBudget = 150;  // ms, to estimate how far a scene moves
 const slowDrawing = 40;     // ms between frames, without scripts; above this, drawing is slow
 const coarseRatio = 0.7;    // fraction of the pixels per side for slow drawing
 
-/** Can release its stage's context. */
+/** An element that can release the context of its stage. */
 interface Sleeper {
   seen: boolean;
   sleep(): void;
@@ -94,7 +94,7 @@ export abstract class LabPicture extends LabRuns {
     this.stage = null;
   }
 
-  /** Positions that the camera must show, as far as they are computed quickly. */
+  /** Positions that the camera must show, as far as they can be computed quickly. */
   private preview() {
     const [a] = this.runs, {scene} = a.sim, pictures: Places[] = a.refusal ? [] : [a.sim.positions.slice()];
     const begin = performance.now(), limit = a.sim.limit('leapfrog'), {step} = scene;

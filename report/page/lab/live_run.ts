@@ -137,12 +137,12 @@ export class LiveRun {
   get step() { return (this.refusal ? 0 : this.sim.h) || this.spec.step || this.sim.scene.step; }
   /** Time at which the run ends, s. */
   get end() { return this.offset + this.sim.scene.duration; }
-  /** Simulated time / computing time so far. */
+  /** Simulated time / computing time, up to now. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-  /** With balls or planes, the distance from the truth is no error: the truth has the same contact rule. */
+  /** With balls or planes, the distance from the truth is not an error, as both use the same contact rule. */
   get errorWord() { return solidsOf(this.sim.scene) ? 'difference' : 'error'; }
 
-  /** Steps up to a time (s), with at most `budget` ms of computing. Returns false if that is not enough. */
+  /** Steps up to a time (s), but computes for at most `budget` ms. Returns false if that is not enough. */
   advance(time: number, budget: number) {
     this.last = 0;
     if (this.ended) return true;
@@ -337,7 +337,7 @@ export class Truth {
   /** Computing time (ms) per second of the scene. */
   get cost() { return this.followers.reduce((sum, {spent, stepped}) => sum + (stepped > 0 ? spent / stepped : 0), 0); }
 
-  /** Gives up the error bar, then the truth. Returns false when nothing is left. */
+  /** Stops computing the error bar, and when called again, the truth. Returns false if nothing is left. */
   shed() {
     this.followers.pop()?.close();
     return this.known;

@@ -54,7 +54,7 @@ export function stageScene(name: string, {scene}: Simulation, floor: number|null
   };
 }
 
-/** A drawn run; without `run` the truth, which is faint. */
+/** A run that is drawn. If `run` is missing, the truth is drawn, faintly. */
 export interface LiveView {
   run: LiveRun|null;
   letter: string;
@@ -102,7 +102,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.arrows = this.tools.table(2 * scene.particles);
   }
 
-  /** Sets the true path, drawn from the start; empty: none. */
+  /** Sets the true path, which is drawn from the start. If it is empty, no path is drawn. */
   setCourse(points: Vec3[]) {
     const {course} = this;
     course.count = Math.max(0, points.length - 1);
@@ -190,7 +190,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return places;
   }
 
-  /** Moves the camera smoothly to a new target, or at once if there was none. */
+  /** Moves the camera smoothly to a new target, or at once if there was no target before. */
   private eased(fit: Fit) {
     const was = this.fit, part = 0.12;
     // if the picture changes its shape, treat it as a new view

@@ -52,13 +52,13 @@ export const tomlNumber = (value: Value): string => Array.isArray(value) ? `[${v
     Object.is(value, -0) ? '-0.0' :
                            String(value);
 
-/** First value at a path; 0 if it is commented out, undefined if there is none. */
+/** First value at a path; 0 if its line is commented out, undefined if there is no value. */
 export function valueAt(toml: string, path: string): Value|undefined {
   const entry = numbersOf(toml).find(e => e.path === path);
   return entry && (entry.out ? (Array.isArray(entry.value) ? entry.value.map(() => 0) : 0) : entry.value);
 }
 
-/** First value at a path: the norm of a list, 0 if there is none. */
+/** First value at a path, as a number: the norm if it is a list, 0 if there is no value. */
 export function numberAt(toml: string, path: string) {
   const value = valueAt(toml, path) ?? 0;
   return Array.isArray(value) ? norm(value) : value;
@@ -112,7 +112,7 @@ export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSp
   return tolerance ? text : withNumber(text, 'time.step', step);
 }
 
-/** A string of the scene, such as "question"; empty if there is none. */
+/** A string of the scene, such as "question"; empty if the scene has no such string. */
 export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
@@ -160,7 +160,7 @@ export function withStart(toml: string, pins: Int32Array, {positions: x, velocit
   return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
-/** Removes a section up to the next head. */
+/** Removes a section, which ends before the next line with a section's name. */
 export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')

@@ -21,7 +21,7 @@ interface MethodLook {
 export const looksOfPage: Record<string, MethodLook> =
     JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
 
-/** Colours of a run: plain; and dark, medium and light for cloth. */
+/** Colours of a run: a plain one; and dark, medium and light ones for cloth. */
 export interface Look {
   title?: string;
   css: string;

@@ -55,7 +55,7 @@ export function roundUp(value: number) {
   return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9))! * power).toPrecision(1));
 }
 
-/** A method as engine and rule; a program has its own name. */
+/** Engine and rule of a method; a program has a name instead of an engine. */
 export const inTwo = (method: string) => {
   const known = looksOfPage[method];
   if (known?.engine) return [known.engine, known.rule ?? ''];

@@ -33,7 +33,7 @@ export interface Table {
 export class Gl {
   readonly gl: WebGL2RenderingContext;
 
-  /** Throws `noContext` if there is no context. */
+  /** Throws `noContext` if WebGL provides no context. */
   constructor(canvas: HTMLCanvasElement, antialias: boolean) {
     const gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
     if (!gl) throw noContext;

@@ -66,7 +66,7 @@ interface RunSet {
   methods: Map<string, RunFile>;
 }
 
-/** Runs of "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", or a map; null without runs. */
+/** Runs of "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", or a map; null if there are none. */
 export const runsOf = (() => {
   const known = new Map<string, RunSet|null>();
   return (key: string) => {

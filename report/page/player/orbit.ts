@@ -5,7 +5,7 @@ import {cross, dot, minus, norm, Numbers, perspective, plus, times, toEye, Vec3}
 const fieldOfView = 25 * Math.PI / 180;
 export const tangent = Math.tan(fieldOfView / 2);
 
-/** A ball to keep in view; `margin`: part of the view that stays free around it. */
+/** A ball to keep in view; `margin`: fraction of the view that stays free around the ball. */
 export interface HeldBall {
   at: Numbers;
   radius: number;

@@ -154,7 +154,7 @@ export class MotionPlayer extends HTMLElement {
     if (this.seen && !stillWanted.matches && !this.dataset.shown && (this.resume ?? true)) this.play();
   }
 
-  /** Unpacks the data once and opens a stage. An invisible player may have to release its own. */
+  /** Unpacks the data once and opens a stage. An invisible player may have to release its stage. */
   async wake() {
     const shared = this.shared ??=
         Promise.all([this.scene.triangles, this.scene.springs.ends, this.scene.springs.rests].map(unpack))
@@ -416,7 +416,7 @@ export class MotionPlayer extends HTMLElement {
   }
 }
 
-/** Runs the players of the first screen on one clock, in a loop; a still picture if motion is unwanted. */
+/** Runs the players of the first screen on one clock, in a loop; shows a still picture if motion is unwanted. */
 function runHero(hero: HTMLElement) {
   const players = [...hero.querySelectorAll<MotionPlayer>('motion-player')].filter(player => player.scene);
   const button = hero.querySelector('button')!, slider = hero.querySelector('input')!;

@@ -67,7 +67,7 @@ async function playRun(key: string, marker: HTMLElement) {
   if (shown) await player.wake();  // plays even with reduced motion, because the reader asked for it
 }
 
-/** Lists a figure's runs by method, by a map's row, and by setting. Built when first opened. */
+/** Lists a figure's runs by method, by a map's row, and by setting. The list is built when first opened. */
 export function listRuns(figure: HTMLElement) {
   if (!plays) return;
   const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
