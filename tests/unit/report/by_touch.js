@@ -1,7 +1,6 @@
 // Touches a page through the browser's own protocol over a pipe, because events that a page creates itself do not show
 // whether the browser would scroll. Prints the result as JSON. Arguments: the page, and a folder for the browser's
 // profile.
-// folder for the browser's profile.
 const {spawn} = require('node:child_process');
 const [page, profile] = process.argv.slice(2);
 

@@ -19,7 +19,7 @@ const labGuideTest = (() => {
   /** Patterns that must not occur in visible text: keys, unfilled placeholders, invalid numbers. */
   const raw = /\{\w+\}|\b[a-z]+(-[a-z]+)*\.[a-z]+\.[a-z]+\b|\bguide\.|\bundefined\b|\bnull\b|\bNaN\b|Infinity|\[object/;
 
-  /** A lab whose frames are produced by calls. Without a picture it has no stage either. */
+  /** A lab whose frames are produced by calls. Without a picture, it has no stage. */
   async function quickLab(picture) {
     const lab = document.querySelector('live-lab');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab');

@@ -516,7 +516,7 @@ const labUse = (() => {
     runOn(13);
     all.check(lab.byHand && [...lab.runs[0].sim.scene.pins].join() === '0,19,210', 'the pins are', lab.runs[0].sim.scene.pins.join());
     await keep('drag and pin');
-    // while held
+    // export while a particle is held
     await opened({scene: 'cloth-hang'});
     runOn(30);
     lab.runs[0].keepPlaces();
@@ -596,7 +596,7 @@ const labUse = (() => {
   }
 
 
-  /** The message of a page that cannot open the lab. */
+  /** Reads the message of a page that cannot open the lab. */
   async function unavailable() {
     const lab = theLab();
     await until(() => lab.dataset.state === 'unavailable', 'the lab to give up');
@@ -609,13 +609,13 @@ const labUse = (() => {
     return {...seen, still: lab.dataset.state, controls: lab.querySelectorAll('canvas, input, select').length};
   }
 
-  /** A page without the module: the lab's place is empty, and nothing opens. */
+  /** Checks a page without the module: the element of the lab is empty, and nothing opens. */
   async function absent() {
     await openLab({scene: 'spring'});
     return {state: theLab().dataset.state, children: theLab().childElementCount, dialogs: document.querySelectorAll('dialog').length};
   }
 
-  /** The picture with only the step's slider, far down a page. */
+  /** Checks the picture with only the step's slider, far down a page. */
   async function part() {
     const all = new Complaints(), lab = theLab(), shown = name => [...lab.querySelectorAll(name)].some(each => each.checkVisibility());
     await pause(300);
@@ -668,7 +668,7 @@ const labUse = (() => {
     const all = new Complaints(), lab = await opened({scene: 'circle'}), {stage} = lab, course = () => lab.stage.course;
     const points = () => Array.from({length: course().count + 1}, (_, i) => [...course().table.data.subarray(4 * i, 4 * i + 3)]);
     all.check(lab.reading.t === 0 && course().count > 500, 'has a course of', course().count);
-    // in single precision
+    // the tolerance allows for single precision
     all.check(points().every(point => Math.abs(Math.hypot(...point) - 1) < 1e-6), 'leaves the circle');
     all.check(points()[0].every((v, k) => v === Math.fround(lab.runs[0].places[k])), 'does not begin at the particle');
     lab.draw();
@@ -721,7 +721,7 @@ const labUse = (() => {
     return all;
   }
 
-  /** Chinese names of steppers, next to their names for the command line. */
+  /** Lists Chinese names of steppers, next to their names for the command line. */
   async function chineseNames() {
     const all = new Complaints(), lab = await opened({scene: 'cloth-hang'});
     setLabLanguage('zh');

@@ -1,5 +1,5 @@
 // Clicks on runs as a reader would, and writes observations into the page.
-const hints = [];  // below the players
+const hints = [];  // texts below the players
 
 /** Contents of the open window, and whether it closes. */
 async function look() {
