@@ -19,7 +19,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Sets the date to 1970. Returns false if there is no date.
+/// Sets the creation date in a PDF's text to 1970. Returns false if the text contains no date.
 bool set_date(std::string& text) {
   const std::string key = "/CreationDate (D:", date = "19700101000000";
   const size_t at = text.find(key);

@@ -81,7 +81,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
     return 1;
   }
   for (const Comparison& row : result.changed) print_row(row);
-  // before the files are written: figures need the old shapes
+  // draw before the files are written, because the figures need the old shapes
   const auto drawn = options.figures > 0 ? before_and_after(regression, options, result, lines) : Figures{};
   for (const auto& [file, text] : result.files) write_file(file, text);
   for (const auto& [from, to] : drawn)

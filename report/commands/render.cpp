@@ -14,7 +14,7 @@ struct RenderOptions {
 
 void read_size(const std::string& text, Shot& shot) {
   int end = 0;
-  // the renderer's images are at most 16384 pixels wide
+  // the limit 8192 is below that of the renderer, 16384 pixels per side
   if (std::sscanf(text.c_str(), "%dx%d%n", &shot.width, &shot.height, &end) != 2 ||
       end != static_cast<int>(text.size()) || shot.width < 64 || shot.height < 64 || shot.width > 8192 ||
       shot.height > 8192)
@@ -35,7 +35,7 @@ Shot shot_of(const RenderOptions& options, const Scene& scene) {
   return shot;
 }
 
-/// Prints methods without a result.
+/// Results of the methods on a scene. Methods without a result are omitted, and printed with the reason.
 std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                      Progress& progress) {
   std::vector<MethodResult> answers;

@@ -40,8 +40,8 @@ struct ConeAnswers {
   std::string count() const { return fmt::format("{} of {}", right, all); }
 };
 
-/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results. For planes,
-/// draws only methods with wrong results.
+/// Coulomb's law on slopes: distance slid against friction coefficient / tan(slope), and a table of results. For
+/// planes, draws only methods with wrong results.
 Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& planes, const std::string& commit) {
   Figure f;
   f.x.low = 0, f.x.high = 2.5, f.y.low = -0.05, f.y.high = 1.05;
@@ -93,7 +93,7 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string>& texts = page.rows.emplace_back(page.header.size());
     texts[0] = method;
-    // if the method refuses restitution, draw its run without
+    // if the method refuses restitution, draw its run without restitution
     const bool refused = std::ranges::any_of(
         rows, [&](const ReboundRow& row) { return row.method == method && row.verdict == Verdict::unsupported; });
     for (const ReboundRow& row : rows | with(&ReboundRow::method, method)) {

@@ -67,7 +67,7 @@ struct FigureSize {
 double pixels_per_inch(const FigureSize& size);
 
 struct FigureInfo {
-  std::string name;         // file name without ending
+  std::string name;         // file name without extension
   std::string title;        // above the plot
   std::string caption;      // scene, step, commit; all_charts() adds the tier
   std::string tier;         // reference and its accuracy: "exact (Coulomb's law)"

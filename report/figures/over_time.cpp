@@ -184,7 +184,8 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
-    // omit the sticky sphere: it stops all particles in contact, which would dwarf other losses
+    // omit the sticky sphere: it stops all particles in contact, so that its losses would dwarf those of the other
+    // methods
     if (!m.ok() || m.method.ends_with("+sticky")) {
       left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", without_folders(m.method), m.failure(), m.end));

@@ -13,7 +13,7 @@ namespace crosscheck {
 
 inline constexpr double letter_height = 12, line_of_text = 15;
 
-/// In layout units.
+/// Width of a text in layout units.
 double width_of(const std::string& text);
 
 /// "0.001", "2·10⁻⁷"
@@ -60,7 +60,7 @@ class Sheet {
   double wide_, tall_, up_;
 };
 
-/// Throws std::runtime_error with the name of the data if there is no row or a number is not finite.
+/// Returns the data. Throws std::runtime_error with their name if there is no row or a number is not finite.
 Table checked(Table data);
 
 std::string script_head(const FigureInfo& figure);

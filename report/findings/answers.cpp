@@ -285,7 +285,7 @@ Findings ball_answer(const Facts& facts) {
              .value = *other->difference,
              .words = {{"where", scene->scene}, {"until", step_text(scene->window)}, {"final", final}}}};
   }
-  // at most two others: those with the most errors
+  // name at most two other methods, those with the most errors
   const ConeCount first = counts[0];
   counts.erase(counts.begin());
   if (counts.size() > 2) std::ranges::stable_sort(counts, {}, &ConeCount::right);

@@ -77,8 +77,8 @@ std::string off_text(double taken, double in_truth, double bar) {
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// Energy taken by contact, compared with the truth's: representative methods of the engines, and mysim's method with
-/// the largest deviation.
+/// Compares the energy taken by contact with the truth's: for representative methods of the engines, and for mysim's
+/// method with the largest deviation.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;

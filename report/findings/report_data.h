@@ -24,7 +24,7 @@ struct MethodData : EngineRow {
   std::optional<double> energy_error = {};  // relative
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
-  /// Crashes and timeouts say nothing about the physics.
+  /// True for crashes and timeouts, which say nothing about the physics.
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// True if the run completed, is not a truth, and has a known error.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }

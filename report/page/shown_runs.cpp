@@ -39,7 +39,7 @@ class Chooser {
     for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
     for (const MethodData& m : part_.facts->methods)
       if (family_of(m.method).role == Role::outside) add_own(m.method, true);
-    // if no representative of mysim, or none of another engine, ran: take its first method
+    // if no representative of mysim ran, add another method of mysim; do the same for the other engines, taken together
     for (const bool of_subject : {true, false})
       for (const MethodData& m : part_.facts->methods)
         if (family_of(m.method).is_subject() == of_subject && std::ranges::none_of(chosen_, [&](const ShownRun& run) {

@@ -1,9 +1,9 @@
 // Fills templates: text files with placeholders, mostly HTML, in report/page/templates/.
 //
 //   {{key}}                          the value as text, safe for HTML
-//   {{prose key}}                    the same for reading: a number and its unit stay on one line
-//   {{bold key}}  {{narrow key}}     the same with numbers in bold; for narrow columns
-//   {{{key}}}                        the value as it is: HTML that another template made
+//   {{prose key}}                    the same for prose: keeps a number and its unit on one line
+//   {{bold key}}  {{narrow key}}     as prose, with numbers in bold; as prose, for narrow columns
+//   {{{key}}}                        the raw value: HTML that another template made
 //   {{#each key}} … {{/each}}        once for each item of a list; {{this}} is the item
 //   {{#if key}} … {{else}} … {{/if}} unless the value is null, false, 0 or empty
 //   {{> name}}  {{> name key}}       another template, with the same data or with that value

@@ -1,6 +1,6 @@
-// All materials. #define chooses between them, because software GL pays for every branch: one of CLOTH, ROD, TRAIL (a
-// rod without light), GROUND, SUM (adds a pass to the sum); VALUES: cloth coloured by value; SHADOW: depth only; VERTEX
-// or FRAGMENT.
+// Shaders of all materials. A #define chooses one of them, because software GL pays for every branch: CLOTH, ROD, TRAIL
+// (a rod without light), GROUND, or SUM (adds a pass to the sum). Others are VALUES (cloth coloured by value), SHADOW
+// (depth only), and VERTEX or FRAGMENT.
 
 #ifdef VERTEX
 uniform mat4 to_clip;
@@ -48,7 +48,7 @@ void main() {
 
   vec3 shown = place;
 #if defined(CLOTH) && !defined(SHADOW)
-  // towards the eye, so that only the depth changes
+  // move towards the eye, so that only the depth changes
   vec3 to_eye = normalize(eye - place);
   shown += to_eye * lift / max(abs(dot(to_eye, normal)), 0.25);
 #endif
@@ -109,7 +109,7 @@ void main() {
 #endif
   if (!gl_FrontFacing) base *= 0.86;
 
-  // threads: at least a pixel wide, and fading where they would crowd
+  // threads are at least a pixel wide, and fade where they would crowd
   vec3 pixel = max(fwidth(rim), vec3(1e-6));
   vec3 line = clamp((max(vec3(1), 0.5 * pixel) - rim) / pixel + 0.5, 0, 1) * smoothstep(vec3(16), vec3(6), pixel);
   base *= mix(vec3(1), vec3(0.40, 0.385, 0.385), max(line.x, max(line.y, line.z)));
@@ -136,7 +136,8 @@ float soft(sampler2DShadow map, mat4 to_map, float radius) {
 void main() {
   float key_lost = KEY_LIGHT * key.y * (1 - soft(key_map, to_key, 0.007 * blur));
   float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - soft(sky_map, to_sky, 0.012 * blur));
-  // shadows fade far away and before the panel ends: the faint wide shadow of the sky early, the key light's late
+  // shadows fade far away and before the panel ends: the faint, wide shadow of the sky fades early, that of the key
+  // light late
   float away = length(place.xz - ground.xz) / ground.w;
   vec2 border = (min(gl_FragCoord.xy, panel.xy - gl_FragCoord.xy) - 0.5) / panel.xy;  // 0 in the outermost pixels
   vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);

@@ -20,7 +20,7 @@ Json packed_json(const std::vector<std::uint16_t>& numbers, size_t columns) {
   return {{"count", numbers.size()}, {"columns", columns}, {"data", base64(pack(numbers, columns))}};
 }
 
-/// Null without a surface.
+/// The surface's triangles; null if the scene has no surface.
 Json triangles_json(const Scene& scene) {
   if (scene.triangles.empty()) return nullptr;
   std::vector<std::uint16_t> corners;

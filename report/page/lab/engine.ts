@@ -119,8 +119,8 @@ class Instance {
     new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  // `at` is an argument, hence computed before the buffer is read: a call may grow the memory, which detaches the old
-  // buffer
+  // pass `at` as an argument, so that it is computed before the buffer is read: the call that computes it may grow the
+  // memory, which detaches the old buffer
   doubles(at: number, count: number) { return new Float64Array(this.calls.memory.buffer, at, count); }
   integers(at: number, count: number) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
