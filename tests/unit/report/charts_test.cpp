@@ -600,7 +600,7 @@ TEST(StepLimits, AreTheSameOnPaperAndOnThePage) {
   EXPECT_EQ(methods_in({"", f, "stability"}), f.names);
 }
 
-/// WCAG 2.
+/// Relative luminance as defined by WCAG 2.
 double luminance(const std::string& colour) {
   double sum = 0;
   constexpr double weights[] = {0.2126, 0.7152, 0.0722};

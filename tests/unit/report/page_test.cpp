@@ -333,7 +333,7 @@ TEST_F(WholePage, IsNamedForScreenReaders) {
   EXPECT_GT(level, 0);
 }
 
-/// "#rrggbb", by WCAG 2.
+/// Relative luminance of "#rrggbb", as defined by WCAG 2.
 double luminance(const std::string& colour) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {

@@ -15,7 +15,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Decompressed by zlib.
+/// The streams of a PDF, decompressed by zlib.
 inline std::vector<std::string> streams_of(const std::string& pdf) {
   std::vector<std::string> streams;
   const std::string begin = "stream\n";
@@ -81,7 +81,7 @@ inline std::string gunzipped(std::string bytes, size_t length) {
   return out;
 }
 
-/// gzip in base64.
+/// The text in gzip data that are encoded in base64.
 inline std::string unpacked_text(const std::string& base64) {
   const std::string bytes = bytes_of_base64(base64);
   size_t length = 0;  // the last four bytes of a gzip file

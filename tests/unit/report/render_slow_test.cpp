@@ -275,9 +275,10 @@ TEST(Render, ViewOfHardCasesIsUsable) {
 
 // Golden pictures, approved by a person: tests/unit/report/golden/NAME.png, with letters and colour bar.
 //
-// Mesa's output is identical on the same kind of processor. On others, single channels differ by up to 4 (measured: 292
-// of 691200 with the oldest instructions). Pictures count as equal if no channel differs by more than 8, and at most
-// one in 200 by more than 2. The test reports the path of the new picture, for updates of the golden ones.
+// Mesa's output is identical on processors of the same kind. On other kinds, single channels differ by up to 4
+// (measured: 292 of 691200 with the oldest instructions). Pictures count as equal if no channel differs by more than 8,
+// and at most one channel in 200 by more than 2. The test reports the path of the new picture, from which the golden
+// one can be updated.
 
 namespace {
 

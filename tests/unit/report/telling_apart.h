@@ -19,7 +19,7 @@ namespace crosscheck::testing_tools {
 
 using Rgb = Eigen::Vector3d;  // linear light, 0..1
 
-/// IEC 61966-2-1.
+/// Converts sRGB to linear light (IEC 61966-2-1).
 inline Rgb linear_light(const std::string& hex) {
   Rgb out;
   for (int i = 0; i < 3; ++i) {
@@ -47,7 +47,7 @@ inline std::vector<Eigen::Matrix3d> colour_blindness() {
   return all;
 }
 
-/// CIE L*, 0 to 100.
+/// Difference in lightness (CIE L*, 0 to 100).
 inline double lightness_apart(const std::string& a, const std::string& b) {
   return std::abs(lab(linear_light(a))[0] - lab(linear_light(b))[0]);
 }

@@ -25,7 +25,7 @@ TEST(TellingApart, SimulatesWhatIsKnownOfColourBlindness) {
   EXPECT_GT(colour_apart("#0072B2", "#D55E00"), 60) << "blue and orange, with any colour blindness";
 }
 
-/// Two curves.
+/// Script of a figure with two curves.
 std::string script(const std::string& one, const std::string& other) {
   return "plot 'a.csv' using (strcol(1) eq 'one' ? $2 : NaN):3 with " + one +
          " notitle, \\\n     'a.csv' using (strcol(1) eq 'other' ? $2 : NaN):3 with " + other + " notitle\n";

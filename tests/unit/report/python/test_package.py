@@ -93,7 +93,7 @@ class Runs(unittest.TestCase):
                          crosscheck.run("chain", duration=0.1).info["scene_hash"])
 
     def test_a_run_that_fails_is_a_result(self):
-        r = crosscheck.run("chain", method="leapfrog", step=0.02)  # the limit is 0.0111
+        r = crosscheck.run("chain", method="leapfrog", step=0.02)  # s; the limit is 0.0111 s
         self.assertEqual(r.verdict, "energy")
         self.assertLess(len(r.times), 151)
         self.assertEqual(len(r.positions), len(r.times))
