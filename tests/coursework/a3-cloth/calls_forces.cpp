@@ -17,9 +17,8 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   return largest;
 }
 
-/// Invariants of spring forces that hold for any law; nine numbers: the sum of the forces; the sum of their moments
-/// about the origin; the change when all particles are moved by `shift`; the difference between R f(x) and f(R x); the
-/// power f . u.
+/// Nine numbers that test spring forces of any law: the sum of the forces; the sum of their moments about the origin;
+/// their change when all particles are moved by `shift`; the difference between R f(x) and f(R x); the power f . u.
 Numbers laws(const std::vector<Spring>& springs, const std::vector<Vec3>& x, const Vec3& shift,
              const std::vector<Vec3>& rotation, const std::vector<Vec3>& u) {
   const std::vector<Vec3> f = spring_forces(springs, x);
@@ -46,7 +45,8 @@ Numbers laws(const std::vector<Spring>& springs, const std::vector<Vec3>& x, con
 }  // namespace
 
 /// spring_forces (springs, count, positions), gravity_forces (count, masses, g), drag_forces (c, count, velocities):
-/// the force on each particle. spring_laws (springs, count, positions, shift, rotation as three rows, directions u).
+/// the force on each particle. spring_laws (springs, count, positions, shift, rotation as three rows, directions u):
+/// the result of laws().
 bool answer_forces(const std::string& call, const Numbers& in, Numbers& out) {
   Reader reader(in);
   if (call == "spring_forces" || call == "spring_laws") {

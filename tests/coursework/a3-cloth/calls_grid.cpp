@@ -1,4 +1,4 @@
-// Calls of part 1. Each begins with a grid.
+// Calls of part 1. The input of each begins with a grid.
 #include <algorithm>
 
 #include "calls_read.h"

@@ -1,4 +1,4 @@
-// Readers shared by the calls of the cloth assignment. A grid is rows, columns, across, down, corner (3).
+// Readers shared by the calls of the cloth assignment. A grid is encoded as rows, columns, across, down, corner (3).
 #pragma once
 
 #include "cloth.h"
@@ -16,7 +16,7 @@ inline Grid read_grid(Reader& in) {
   return grid;
 }
 
-/// Count, then a, b, k, rest of each spring.
+/// Reads the number of springs, then `a`, `b`, `k`, `rest` of each.
 inline std::vector<Spring> read_springs(Reader& in) {
   std::vector<Spring> all(in.integer());
   for (Spring& s : all) {
@@ -28,7 +28,7 @@ inline std::vector<Spring> read_springs(Reader& in) {
   return all;
 }
 
-/// On (1 or 0), direction (3), speed, gust, frequency, offset, density, coefficient.
+/// Reads `on` (1 or 0), direction (3), speed, gust, frequency, offset, density, coefficient.
 inline Wind read_wind(Reader& in) {
   Wind wind;
   wind.on = in.integer() != 0;
@@ -38,7 +38,7 @@ inline Wind read_wind(Reader& in) {
   return wind;
 }
 
-/// Count, then three corners of each triangle.
+/// Reads the number of triangles, then the three corners of each.
 inline std::vector<Triangle> read_triangles(Reader& in) {
   std::vector<Triangle> all(in.integer());
   for (Triangle& t : all) {

@@ -23,8 +23,8 @@ Numbers pairs(const std::vector<Spring>& springs) {
   return out;
 }
 
-/// For each offset of a family on the grid (rows down, columns across): smallest and largest rest length, smallest and
-/// largest stiffness.
+/// For each distance between the ends of a spring, in rows and in columns: these two numbers, then the smallest and
+/// largest rest length and stiffness.
 Numbers steps(const Grid& grid, const std::vector<Spring>& springs) {
   std::map<std::array<int, 2>, std::array<double, 4>> found;
   for (const Spring& s : springs) {
@@ -47,7 +47,7 @@ Numbers steps(const Grid& grid, const std::vector<Spring>& springs) {
 
 }  // namespace
 
-/// structural, shear, flexion (a grid, then k): the pairs.
+/// structural, shear, flexion (a grid, then k): the result of pairs().
 /// spring_steps (a grid, then k of each family): the result of steps() for the three families, one after the other.
 /// spring_counts (number of grids, then the grids): the number of springs of each family, for each grid.
 bool answer_springs(const std::string& call, const Numbers& in, Numbers& out) {

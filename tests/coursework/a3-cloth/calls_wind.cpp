@@ -6,7 +6,7 @@
 
 namespace coursework {
 
-/// triangles (a grid): the corners of each in ascending order, the triangles in ascending order.
+/// triangles (a grid): the corners of each triangle in ascending order; the triangles are sorted, too.
 /// wind_at (wind, count, times): velocity of the air at each time.
 /// wind_forces (wind, triangles, count, positions, velocities, t): the force on each particle.
 bool answer_wind(const std::string& call, const Numbers& in, Numbers& out) {

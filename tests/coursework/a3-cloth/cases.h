@@ -21,7 +21,7 @@ struct Mesh {
   Points points() const;
 };
 
-/// Never square, and never with square cells.
+/// A random mesh: rows and columns differ in number, and cells are not square.
 Mesh random_mesh(Random& random, int smallest, int largest);
 /// A sheet with all three families, displaced from its flat shape by up to `bent` in each direction.
 struct Sheet {
@@ -30,7 +30,7 @@ struct Sheet {
   Points x;
 };
 Sheet random_sheet(Random& random, int smallest, int largest, double bent);
-/// One to three particles in a row with springs between neighbours, or four in a cell.
+/// A sheet of one to three particles in a row with springs between neighbours, or of four particles in a cell.
 Sheet small_sheet(Random& random, int size, double bent);
 
 using coursework::put;

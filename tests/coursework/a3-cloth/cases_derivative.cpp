@@ -63,7 +63,7 @@ Scene scene_of(Random& random, const Sheet& sheet) {
   scene.v.resize(3, count);
   for (int i = 0; i < count; ++i) {
     scene.v.col(i) = random_vector(random, 1);
-    // round random numbers could coincide
+    // round random numbers could be equal
     scene.mass.push_back(random.rounds() ? 0.02 + 0.01 * i : random.uniform(0.02, 0.04));
   }
   if (scene.sheet.mesh.rows > 1) scene.faces = grid_triangles(grid_of(scene.sheet.mesh, 1, 0, 0));
@@ -96,7 +96,7 @@ Points rates_of(const Scene& scene, const Points& x, const Points& v, double t) 
 }
 
 Case rates_case(const char* call, const Scene& scene) {
-  // accelerations of at most 3000 m/s^2, sums of some 20 terms: round-off below 1e-11
+  // accelerations are at most 3000 m/s^2 and sums of some 20 terms: their round-off is below 1e-11
   return {.call = call, .in = scene.numbers(), .columns = 6, .tolerance = 1e-8, .row = "particle", .column = "rates"};
 }
 
@@ -164,12 +164,12 @@ Case again(Random& random, const Scene& scene) {
 Cases rates_again(Random& random) { return {again(random, random_scene(random))}; }
 Cases small_rates_again(Random& random) {
   Cases cases = small_scenes(random, [&](const Scene& scene) { return again(random, scene); });
-  cases.pop_back();  // two states of a cell are too many numbers to read
+  cases.pop_back();  // two states of a cell are too many numbers for a reader
   return cases;
 }
 
 Cases hanging_strip(Random& random) {
-  // one column, fixed at its first particle: spring i stretches by the weight below it over its stiffness
+  // a column hangs from its first particle: each spring stretches by the weight below it divided by its stiffness
   Scene scene{};
   const int count = random.integer(4, 6);
   const double g = random.uniform(5, 12);
@@ -197,7 +197,7 @@ Cases hanging_strip(Random& random) {
     rest(1, i) -= fallen;
   }
   c.expected = numbers_of(rest);
-  // drag damps every mode at least as fast as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left; round-off 1e-13
+  // drag damps every mode at least as fast as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left. Round-off is 1e-13
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;
@@ -222,8 +222,8 @@ Cases swinging_cloth(Random& random) {
     state.t = (n + 1) * h;
     put(c.expected, Vec3(state.x.col(watched)));
   }
-  // identical rule and order of stages: round-off of at most 1e-14 m on 20 seeds, which a cloth with this drag cannot
-  // amplify by 1e5 in 0.3 s
+  // mysim uses the same rule and order of stages: round-off was at most 1e-14 m on 20 seeds, and a cloth with this drag
+  // cannot amplify it by 1e5 in 0.3 s
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;

@@ -60,7 +60,7 @@ Cases one_spring(Random& random) {
 }
 
 Cases small_one_spring(Random&) {
-  // along an axis: stretched, shortened
+  // a spring along an axis, first stretched, then shortened
   Cases cases;
   for (const double length : {3.0, 1.0}) {
     Points x = Points::Zero(3, 2);
@@ -103,14 +103,14 @@ Case laws_of(Random& random, const Sheet& sheet) {
   put(c.in, random_vector(random, 2));
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(random.uniform(0.5, 2.5), random_direction(random)).toRotationMatrix();
-  put(c.in, Points(rotation.transpose()));  // column by column: the rows of the rotation
+  put(c.in, Points(rotation.transpose()));  // put() goes column by column and so writes the rows of the rotation
   Points u(3, sheet.mesh.size());
   for (int i = 0; i < u.cols(); ++i) u.col(i) = random_vector(random, 1);
   put(c.in, u);
   c.expected.assign(8, 0.0);
   c.expected.push_back(power(sheet.springs, sheet.x, u));
-  // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. The truncation error is about (step / length)^4 = (0.001 /
-  // 0.05)^4 = 2e-7 of some 10 N (measured on 20 seeds: 6e-7 N)
+  // differences of some 5 J over 1e-3 m have a round-off of 1e-12 N. The truncation error is about (step / length)^4 =
+  // (0.001 / 0.05)^4 = 2e-7 of some 10 N (measured on 20 seeds: 6e-7 N)
   c.tolerance = 1e-5;
   return c;
 }

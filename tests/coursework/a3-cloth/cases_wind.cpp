@@ -8,7 +8,7 @@
 namespace coursework::a3 {
 namespace {
 
-// forces of at most 10 N, summed over six triangles
+// forces of at most 10 N, summed over six triangles, have a round-off of 1e-14 N
 constexpr double wind_round_off = 1e-9;
 
 Case wind_case(const Breeze& breeze, const std::vector<std::array<int, 3>>& faces, const Points& x, const Points& v,
@@ -80,7 +80,8 @@ Cases one_triangle(Random& random) {
 }
 
 Cases small_triangle(Random&) {
-  // 6 m^2 that the air meets head on; from behind; at an angle; moving with half the wind; with one moving corner
+  // a triangle of 6 m^2: the air meets it from the front, from behind and at an angle; it moves with half the speed of
+  // the wind; only one corner moves
   Points x(3, 3);
   x << 0, 0, 4, 0, 0, 0, 0, 3, 0;
   Cases cases;
@@ -102,7 +103,7 @@ Cases small_triangle(Random&) {
 
 namespace {
 
-/// Wind from one side, from the other, and switched off.
+/// Three cases: wind from one side, wind from the other side, and no wind.
 Cases wind_on(Random& random, const Sheet& sheet, const std::vector<std::array<int, 3>>& faces) {
   Breeze breeze = random_breeze(random);
   Points v(3, sheet.mesh.size());
@@ -131,7 +132,7 @@ Cases wind_on_cloth(Random& random) {
 }
 
 Cases small_wind_on_cloth(Random& random) {
-  // one triangle, then the two of a cell
+  // a single triangle, then a cell of two triangles
   Sheet one{Mesh{1, 3, 0.4, 0.3, Vec3::Zero()}, {}, Points(3, 3)};
   one.x << 0, 0.4, 0, 0, 0, 0, 0, 0, 0.3;
   Cases cases = small_triangle(random), tilted = wind_on(random, one, {{0, 1, 2}});

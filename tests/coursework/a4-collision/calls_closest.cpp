@@ -1,10 +1,10 @@
-// Calls of part 1. Each takes a sphere or a plane, a count, and that many points.
+// Calls of part 1. The input is a sphere (for `plane`: a plane), the number of points, and the points.
 #include "calls_read.h"
 
 namespace coursework {
 
-/// gap, normal, nearest: for each point. normal_and_nearest: both, one after the other. plane: its gap and nearest
-/// point.
+/// gap, normal, nearest: the function of this name at each point. normal_and_nearest: normal and nearest point for each
+/// point. plane: gap and nearest point for each point.
 bool answer_closest(const std::string& call, const Numbers& in, Numbers& out) {
   if (call == "plane") {
     Reader reader(in);

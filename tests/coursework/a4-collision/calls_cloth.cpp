@@ -1,5 +1,5 @@
-// Calls of part 5. A cloth is count, masses, number of pins, pins, number of springs, a, b, k, rest of each spring,
-// gravity, drag; its state follows.
+// Calls of part 5. A cloth is encoded as the number of particles, masses, number of pins, pins, number of springs, `a`,
+// `b`, `k`, `rest` of each spring, gravity and drag; its state follows.
 #include "calls.h"
 #include "calls_read.h"
 

@@ -6,7 +6,7 @@
 
 namespace coursework {
 
-/// Centre (3), radius, margin, friction, restitution.
+/// Reads centre (3), radius, margin, friction, restitution.
 inline Sphere read_sphere(Reader& in) {
   Sphere sphere;
   sphere.centre = in.vector<Vec3>();
@@ -14,7 +14,7 @@ inline Sphere read_sphere(Reader& in) {
   return sphere;
 }
 
-/// Point (3), normal (3), margin, friction.
+/// Reads point (3), normal (3), margin, friction.
 inline Plane read_plane(Reader& in) {
   Plane plane;
   plane.point = in.vector<Vec3>(), plane.normal = in.vector<Vec3>();

@@ -1,4 +1,4 @@
-// Calls of part 4: a sphere, g (3), h, steps, count, state.
+// Calls of part 4. The input is a sphere, g (3), h, number of steps, number of particles, state.
 #include <algorithm>
 #include <cmath>
 #include "calls.h"
@@ -7,7 +7,7 @@
 namespace coursework {
 namespace {
 
-// not by the student's gap()
+// computed without the student's gap()
 double height_over(const Sphere& sphere, const Vec3& x) {
   return length(x - sphere.centre) - sphere.radius - sphere.margin;
 }
@@ -70,7 +70,7 @@ Numbers rebound(Run run) {
 }  // namespace
 
 /// contact_step: position and velocity of each particle after all steps. contact_path: position of the first particle
-/// after each step. leaving, rebound: see above, for the first particle.
+/// after each step. leaving, rebound: the results of the functions above for the first particle.
 bool answer_step(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "contact_step" && call != "contact_path" && call != "leaving" && call != "rebound") return false;
   Reader reader(in);

@@ -3,7 +3,7 @@
 
 namespace coursework {
 
-/// corrected_velocity (sphere, count, normal and velocity of each).
+/// corrected_velocity (sphere, count, normal and velocity of each particle): the corrected velocity of each particle.
 bool answer_velocity(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "corrected_velocity") return false;
   Reader reader(in);

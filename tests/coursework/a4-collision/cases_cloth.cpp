@@ -141,7 +141,7 @@ Case accelerations_of(const Scene& scene) {
   State state = scene.start;
   system.acceleration(state, a);
   put(c.expected, a);
-  c.tolerance = 1e-8;  // sums of a dozen terms of at most 1000 m/s^2: 1e-11
+  c.tolerance = 1e-8;  // sums of a dozen terms of at most 1000 m/s^2 have a round-off of 1e-11
   return c;
 }
 
@@ -160,14 +160,14 @@ Cases small_accelerations(Random& random) {
 }
 
 Cases small_cloth_step(Random& random) {
-  // far from the sphere, inside it, inside it with a spring, inside it with a pin inside, inside two spheres
+  // a particle far from the sphere; inside it; inside it on a spring; inside it with a pin inside; inside two spheres
   Cases cases;
   for (int kind = 0; kind < 5; ++kind) {
     Scene scene = few(random, kind == 2 || kind == 3 ? 2 : 1, kind == 3 ? std::vector<int>{1} : std::vector<int>{});
     scene.spheres.push_back({{0.1, kind == 0 ? -2 : -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     if (kind == 4) scene.spheres.push_back({{-0.1, -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     cases.push_back(scene.run("cloth_step", 0.01, 1, -1));
-    cases.back().tolerance = 1e-9;  // as in pins_and_spheres_of()
+    cases.back().tolerance = 1e-9;  // same bound as in pins_and_spheres_of()
   }
   return cases;
 }
@@ -186,7 +186,7 @@ Case pins_and_spheres_of(Random& random, int n) {
     scene.spheres.push_back({centre, radius, 0.03, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7), std::nullopt});
   }
   Case c = scene.run("cloth_step", 0.005, 1, -1);
-  c.tolerance = 1e-9;  // velocities of at most 10 m/s after one step: 1e-14
+  c.tolerance = 1e-9;  // velocities of at most 10 m/s after one step have a round-off of 1e-14
   return c;
 }
 
@@ -222,7 +222,7 @@ Cases drape(Random& random) {
   Scene scene = square(random, 6, 0.7, middle, Vec3::UnitX(), Vec3::UnitZ(), {});
   scene.spheres = {sphere};
   Case c = scene.run("cloth_path", 0.004, 120, 0);
-  // round-off only, 2e-14 m at most on 20 seeds; crumpling may amplify it by 1e5 in half a second
+  // the round-off is at most 2e-14 m on 20 seeds; crumpling may amplify it by 1e5 in half a second
   c.tolerance = 1e-6;
   return {c};
 }

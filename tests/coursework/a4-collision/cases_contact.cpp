@@ -4,7 +4,8 @@
 namespace coursework::a4 {
 namespace {
 
-// a handful of operations on numbers of about 10 m or m/s: 1e-14; friction divides by lengths of at least 0.01: 1e-12
+// a handful of operations on numbers of about 10 m or m/s have a round-off of 1e-14; friction divides by lengths of at
+// least 0.01, which raises it to 1e-12
 constexpr double round_off = 1e-9;
 
 Case contact_case(const char* call, const Sphere& sphere, int count, const char* column, int columns) {
@@ -16,7 +17,7 @@ Case contact_case(const char* call, const Sphere& sphere, int count, const char*
 
 constexpr int places = 6;
 
-/// Positions alternately outside and inside, in random directions. `expect` appends the expected numbers.
+/// Positions alternately outside and inside the sphere, in random directions. `expect` appends the expected numbers.
 template <class Expect>
 Cases around(Random& random, const char* call, const char* column, int columns, Expect expect) {
   const Sphere sphere = random_sphere(random, 0, 0);
@@ -30,8 +31,9 @@ Cases around(Random& random, const char* call, const char* column, int columns, 
   return {c};
 }
 
-/// A particle that began at `before` and proposes to go to `proposed`, `depth` inside. Its displacement along the
-/// sphere, as a multiple of mu times depth, decides whether it slides (> 1) or sticks (< 1).
+/// A particle that began at `before` and proposes to go to `proposed`, which is `depth` inside the sphere. Its
+/// displacement along the sphere is `multiple` times mu times depth: it slides if `multiple` > 1, and sticks if
+/// `multiple` < 1.
 struct Move {
   Vec3 before, proposed;
 };
@@ -52,7 +54,7 @@ Cases moves(Random& random, double friction, double least, double most) {
                             : most < 1 ? random.uniform(0.9, 0.97)
                                        : random.uniform(1.05, 1.3);
     Move move = random_move(random, sphere, depth, multiple);
-    if (friction == 0 && i == 0)  // straight down: no motion along the sphere, to the last digit
+    if (friction == 0 && i == 0)  // straight down, with exactly no motion along the sphere
       move = {sphere.centre + Vec3(0, sphere.contact_radius() + 0.02, 0),
               sphere.centre + Vec3(0, sphere.contact_radius() - depth, 0)};
     put(c.in, move.before);
@@ -62,8 +64,8 @@ Cases moves(Random& random, double friction, double least, double most) {
   return {c};
 }
 
-/// Velocities with a normal component (against n if sign < 0) and a tangential one of `ratio` times mu (1 + e) times
-/// the normal one (without friction, times 1).
+/// Velocities with a normal component (against n if sign < 0) and a tangential one. The tangential component is `least`
+/// to `most` times mu (1 + e) times the normal one; without friction, `least` to `most` times the normal one.
 Cases velocities(Random& random, double friction, double restitution, double sign, double least, double most) {
   const Sphere sphere = random_sphere(random, friction, restitution);
   Case c = contact_case("corrected_velocity", sphere, places, "velocity", 3);
@@ -87,7 +89,7 @@ Cases velocities(Random& random, double friction, double restitution, double sig
 
 namespace {
 
-/// A sphere around the origin that a particle touches at height 1, so that every number of the result has one cause.
+/// A sphere around the origin that a particle touches at height 1, so that the expected numbers are simple.
 Sphere plain_sphere(double friction, double restitution) {
   return {Vec3::Zero(), 0.75, 0.25, friction, restitution, std::nullopt};
 }
@@ -108,7 +110,7 @@ Case move_case(double friction, const Vec3& before, const Vec3& proposed) {
   return c;
 }
 
-/// At the top of the sphere.
+/// Contact at the top of the sphere.
 Case velocity_case(double friction, double restitution, const Vec3& v, const Vec3& after) {
   Case c = contact_case("corrected_velocity", plain_sphere(friction, restitution), 1, "velocity", 3);
   put(c.in, Vec3(0, 1, 0));
@@ -127,14 +129,15 @@ Cases small_place(Random&) {
 }
 
 Cases small_move(Random&) {
-  // outside, straight down, along without friction, sticking by friction, sliding with friction
+  // not inside; straight down; along the sphere without friction; stopped by friction; sliding with friction
   return {move_case(0.5, {0, 3, 0}, {0.5, 2, 0}), move_case(0, {0, 1.5, 0}, {0, 0.75, 0}),
           move_case(0, {-0.5, 1.5, 0}, {0, 0.75, 0}), move_case(0.5, {-0.0625, 1.5, 0}, {0, 0.75, 0}),
           move_case(0.5, {-0.5, 1.5, 0}, {0, 0.75, 0})};
 }
 
 Cases small_velocity(Random&) {
-  // separating, straight in, in and along, with restitution, with friction, sticking by friction, with both
+  // separating; straight inwards; inwards and along the sphere: without friction and restitution, with restitution,
+  // with friction, stopped by friction, with friction and restitution
   return {velocity_case(0.25, 0.5, {3, 2, 0}, {3, 2, 0}),    velocity_case(0, 0, {0, -2, 0}, {0, 0, 0}),
           velocity_case(0, 0, {3, -2, 0}, {3, 0, 0}),        velocity_case(0, 0.5, {3, -2, 0}, {3, 1, 0}),
           velocity_case(0.25, 0, {3, -2, 0}, {2.5, 0, 0}),   velocity_case(0.25, 0, {0.25, -2, 0}, {0, 0, 0}),
@@ -169,7 +172,7 @@ Cases untouched(Random& random) {
   const Sphere sphere = random_sphere(random, random.uniform(0.3, 0.8), 0);
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
-    const double depth = -random.uniform(0.005, 0.3);  // not inside: the answer must be unchanged to the last digit
+    const double depth = -random.uniform(0.005, 0.3);  // outside: the position must not change, not even by round-off
     const Move move = random_move(random, sphere, depth, 1);
     put(c.in, move.before);
     put(c.in, move.proposed);
@@ -188,7 +191,7 @@ Cases inside_at_the_start(Random& random) {
   const double r = sphere.contact_radius();
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
-    // both ends are inside; one proposed position is the exact centre; friction stops two of the other particles
+    // both positions are inside; one proposed position is the exact centre; friction stops two of the other particles
     const Vec3 n = random_direction(random);
     const double depth = random.uniform(0.1, 0.2) * r, along = random.uniform(1.5, 2.5) * sphere.friction * depth;
     const Vec3 proposed = i == 0 ? sphere.centre : Vec3(sphere.centre + (r - depth) * n);
@@ -219,7 +222,7 @@ Case plane_case(const char* call, const crosscheck::Plane& plane, const char* co
 
 }  // namespace
 
-/// Positions alternately outside and inside, relative to a point of the contact plane.
+/// Positions alternately outside and inside the solid.
 Cases plane_places(Random& random) {
   const crosscheck::Plane plane = random_plane(random, 0);
   Case c = plane_case("plane", plane, "gap_and_nearest", 4);

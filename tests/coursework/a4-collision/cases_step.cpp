@@ -40,7 +40,7 @@ Resolved next(const Start& s, const Vec3& x, const Vec3& v) {
   return resolved(s.sphere, x, x + s.h * faster, faster);
 }
 
-/// On the surface, at an angle (rad) from the top; "up" is a random direction.
+/// A particle on the surface, at an angle (rad) from the top. The direction of gravity is random.
 Start on_the_slope(Random& random, double angle, double friction) {
   Start s{random_sphere(random, friction, 0), random_gravity(random), 0, 0, {}, {Vec3::Zero()}};
   const Vec3 up = -s.g.normalized();
@@ -53,11 +53,11 @@ Start on_the_slope(Random& random, double angle, double friction) {
 
 Cases free_flight(Random& random) {
   Start s{random_sphere(random, 0.5, 0.5), random_gravity(random), random.uniform(0.01, 0.02), 40, {}, {}};
-  // a near miss: the closed sum of symplectic Euler is x0 + n h v0 + n (n + 1) / 2 h^2 g
+  // the particle misses the sphere narrowly; after n steps, symplectic Euler is at x0 + n h v0 + n (n + 1) / 2 h^2 g
   const Vec3 n = random_tangent(random, s.g.normalized());
   s.x = {s.sphere.centre + (s.sphere.contact_radius() + random.uniform(0.5, 1)) * n};
   s.v = {-random.uniform(0.1, 0.3) * n + random.uniform(1, 2) * n.cross(s.g.normalized())};
-  Case c = path_case(s, 1e-10);  // 40 sums of numbers of a few metres: 1e-14
+  Case c = path_case(s, 1e-10);  // 40 sums of numbers of a few metres have a round-off of 1e-14
   for (int k = 1; k <= s.steps; ++k)
     put(c.expected, Vec3(s.x[0] + k * s.h * s.v[0] + 0.5 * k * (k + 1) * s.h * s.h * s.g));
   return {c};
@@ -74,7 +74,7 @@ Case one_step_of(Random& random, int count, int kind = 0) {
   const double r = s.sphere.contact_radius();
   Numbers expected;
   for (int i = 0; i < count; ++i) {
-    // far outside, just above and approaching (slowly, or fast along the surface), or inside from the start
+    // the particle is far outside, just above the surface (and slow or fast along it), or inside from the start
     const Vec3 n = random_direction(random), along = random_tangent(random, n);
     const double height[] = {random.uniform(0.5, 1), random.uniform(0.001, 0.005), random.uniform(0.001, 0.005),
                              -random.uniform(0.05, 0.1) * r};
@@ -85,14 +85,15 @@ Case one_step_of(Random& random, int count, int kind = 0) {
     put(expected, after.x);
     put(expected, after.v);
   }
-  Case c = step_case("contact_step", s, "particle", "state", 6, 1e-10);  // a few operations on numbers below 100: 1e-13
+  // a few operations on numbers below 100 have a round-off of 1e-13
+  Case c = step_case("contact_step", s, "particle", "state", 6, 1e-10);
   c.expected = expected;
   return c;
 }
 
 // the second case has fewer particles: a solution must not keep state between calls
 Cases one_step(Random& random) { return {one_step_of(random, 8), one_step_of(random, 4)}; }
-// one particle of each kind
+// one case for each situation of one_step_of()
 Cases small_step(Random& random) {
   Cases cases;
   for (int kind = 0; kind < 4; ++kind) cases.push_back(one_step_of(random, 1, kind));
@@ -104,9 +105,9 @@ Cases leaving_angle(Random& random) {
   Start s = on_the_slope(random, start, 0);
   s.h = 2e-4 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
   s.steps = 30000;
-  // symplectic Euler falls by half a step's gravity too much, which holds the particle on the surface for another
-  // sqrt(h v cos / (3 R sin)) = 0.4 degrees, or 0.6 % of speed (as measured); a slide that sticks, rubs or loses speed
-  // ends 5 degrees or more away
+  // symplectic Euler falls too far by half a step's gravity, so that the particle leaves the surface sqrt(h v cos / (3
+  // R sin)) = 0.4 degrees later, and 0.6 % faster (as measured). With friction or a loss of speed it would leave at
+  // least 5 degrees away
   Case c = step_case("leaving", s, "whole", "leaving", 2, 1.0);
   const double cosine = 2.0 / 3 * std::cos(start);
   c.expected = {std::acos(cosine) * 180 / std::numbers::pi, 100 * std::sqrt(cosine)};
@@ -118,7 +119,7 @@ Cases rebound_height(Random& random) {
   Start s{random_sphere(random, 0.5, e), random_gravity(random), 0, 6000, {}, {Vec3::Zero()}};
   s.x = {s.sphere.centre - (s.sphere.contact_radius() + drop) * s.g.normalized()};
   s.h = 5e-4 * std::sqrt(2 * drop / s.g.norm());
-  // a step shifts the moment of impact by at most h: 2 h / fall time = 0.1 % of the speed, 0.2 % of the height
+  // the moment of impact shifts by at most h, which changes the speed by 2 h / fall time = 0.1 %, the height by 0.2 %
   Case c = step_case("rebound", s, "whole", "rebound", 1, 0.5);
   c.expected = {100 * e * e};
   return {c};
@@ -131,7 +132,8 @@ Cases coulomb_cone(Random& random) {
     Start s = on_the_slope(random, angle, factor * std::tan(angle));
     s.h = 0.01 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
     s.steps = 100;
-    // sticking: exactly at the start. Sliding: the same rule computed by mysim, round-off of 1e-16 m in each step
+    // a sticking particle stays exactly at the start; for a sliding one mysim computes the same rule, with a round-off
+    // of 1e-16 m in each step
     Case c = path_case(s, 1e-9);
     Resolved now{s.x[0], s.v[0]};
     for (int k = 0; k < s.steps; ++k) {

@@ -1,4 +1,4 @@
-// The three families. Each spring is added from one of its ends only, if the other one exists.
+// The three families. Each spring is added from only one of its ends, if there is a particle at the other end.
 #include <cmath>
 
 #include "cloth.h"

@@ -1,4 +1,4 @@
-// What you write, and its data types. Ours: do not change it, the grader uses its own copy.
+// The functions that you write, and their data types. Do not change this file: the grader uses its own copy.
 // Units: m, kg, s, N. The y axis points up.
 #pragma once
 
@@ -13,12 +13,12 @@ struct Grid {
   int rows = 0, columns = 0;
   double across = 0;  // m, between neighbours in a row
   double down = 0;    // m, between neighbours in a column
-  Vec3 corner;        // m, of the particle in row 0, column 0
+  Vec3 corner;        // m, position of the particle in row 0, column 0
 };
 
-/// Number of the particle in a row and column: all of row 0 first, then all of row 1, ...
+/// Index of the particle in a row and column: all particles of row 0 come first, then all of row 1, ...
 int index_of(const Grid& grid, int row, int column);
-/// The adjacent particles in its row and in its column: one to four, in any order.
+/// Indices of the adjacent particles in the same row and in the same column: one to four, in any order.
 std::vector<int> neighbours(const Grid& grid, int row, int column);
 /// Initial position of each particle, in the order of the indices.
 std::vector<Vec3> positions(const Grid& grid);
@@ -31,14 +31,14 @@ struct Spring {
   double rest = 0;   // m, rest length
 };
 
-/// Each family: every pair once, in any order, all with stiffness k and at rest in the flat grid.
-std::vector<Spring> structural(const Grid& grid, double k);  // to the next in the row, to the next in the column
+/// Springs of each family: each pair once, in any order, with stiffness k, and at its rest length in the flat grid.
+std::vector<Spring> structural(const Grid& grid, double k);  // from each particle to the next in its row and column
 std::vector<Spring> shear(const Grid& grid, double k);       // both diagonals of every cell
-std::vector<Spring> flexion(const Grid& grid, double k);     // to the next but one in the row, and in the column
+std::vector<Spring> flexion(const Grid& grid, double k);     // from each to the next but one in its row and column
 
 // ---- forces.cpp: the force on each particle, N
 
-/// The sum of all springs at each particle. A spring whose ends coincide has no direction, and exerts no force.
+/// The sum of all spring forces on each particle. A spring whose ends coincide has no direction and exerts no force.
 std::vector<Vec3> spring_forces(const std::vector<Spring>& springs, const std::vector<Vec3>& x);
 /// Gravity: mass times g (m/s^2).
 std::vector<Vec3> gravity_forces(const std::vector<double>& mass, const Vec3& g);
@@ -58,7 +58,7 @@ struct Triangle {
 
 struct Wind {
   bool on = false;
-  Vec3 direction;                              // where it blows to, length 1
+  Vec3 direction;                              // unit vector in which the air moves
   double speed = 0;                            // m/s, on average
   double gust = 0, frequency = 0, offset = 0;  // 1, Hz, rad: how the speed varies
   double density = 0;                          // of the air, kg/m^3

@@ -3,7 +3,7 @@
 
 namespace {
 
-/// One rule for both surfaces.
+/// Spheres and planes share this rule.
 template <class Surface>
 Vec3 corrected(const Surface& surface, const Vec3& before, const Vec3& proposed) {
   const double depth = -gap(surface, proposed);

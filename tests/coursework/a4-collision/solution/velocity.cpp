@@ -1,5 +1,5 @@
-// The velocity after contact: the inward component is reversed and multiplied by e, and friction reduces the tangential
-// one.
+// The velocity after contact: the inward component is reversed and multiplied by e; friction reduces the tangential
+// component.
 #include "contact.h"
 
 Vec3 corrected_velocity(const Sphere& sphere, const Vec3& n, const Vec3& v) {

@@ -1,4 +1,4 @@
-// What you write, and its data types. Ours: do not change it, the grader uses its own copy.
+// The functions that you write, and their data types. Do not change this file: the grader uses its own copy.
 // Units: m, kg, s, N. The y axis points up.
 #pragma once
 
@@ -41,7 +41,7 @@ Vec3 nearest(const Plane& plane, const Vec3& x);
 // ---- position.cpp
 
 /// The position after contact of a particle that began the step at `before` and would go to `proposed`. Returns
-/// `proposed` if that is not inside.
+/// `proposed` if that point is not inside.
 Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& proposed);
 Vec3 corrected_position(const Plane& plane, const Vec3& before, const Vec3& proposed);
 

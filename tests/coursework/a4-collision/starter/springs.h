@@ -1,4 +1,4 @@
-// The spring forces of assignment 3, given. Ours: do not change it, the grader uses its own copy.
+// The spring forces of assignment 3. Do not change this file: the grader uses its own copy.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ struct Spring {
   double rest = 0;  // m
 };
 
-/// Sum of all springs at each particle, N.
+/// Sum of all spring forces on each particle, N.
 inline std::vector<Vec3> spring_forces(const std::vector<Spring>& springs, const std::vector<Vec3>& x) {
   std::vector<Vec3> f(x.size());
   for (const Spring& s : springs) {

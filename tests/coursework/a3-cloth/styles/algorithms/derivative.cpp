@@ -1,4 +1,4 @@
-// With the standard algorithms: copies the velocities, and sums the forces list by list.
+// The derivative with the standard algorithms: copies the velocities, and sums the forces list by list.
 #include <algorithm>
 #include <numeric>
 

@@ -1,4 +1,4 @@
-// Wind by triangles: the pressure first, then the share of each corner.
+// Wind on triangles: first the pressure, then the share of each corner.
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -7,7 +7,7 @@
 
 std::vector<Triangle> triangles(const Grid& grid) {
   std::vector<Triangle> all;
-  // the lower ones first, then the upper ones, with their corners in another order
+  // the lower triangles of all cells, then the upper ones; the order of corners differs from the hand-out
   for (int r = 1; r < grid.rows; ++r)
     for (int c = 1; c < grid.columns; ++c)
       all.push_back({index_of(grid, r, c), index_of(grid, r - 1, c), index_of(grid, r, c - 1)});
