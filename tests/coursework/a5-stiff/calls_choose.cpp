@@ -1,5 +1,5 @@
 // Calls of predicted_step and measured_step.
-//   choose.predicted: rule (index in the enum), then omega, duration, tolerance of each run     a row each: the step
+//   choose.predicted: rule (index in the enum), then omega, duration, tolerance of each run     the step of each run
 //   choose.measured: order p, h, tolerance, n, y (n), c (n); the run ends at y + c h^p          the step
 #include <cmath>
 

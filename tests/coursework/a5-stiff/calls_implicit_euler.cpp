@@ -1,7 +1,7 @@
-// Calls of implicit_euler_step. Both begin with n, steps, h, drag, gravity (3), number of springs, then per spring a,
-// b, stiffness, rest, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n).
-// implicit_euler.all: after the last step, a row per particle: x (3), v (3)
-// implicit_euler.watch: one more number, a particle: its row after each step
+// Calls of implicit_euler_step. Their input is n, steps, h, drag, gravity (3), number of springs, then `a`, `b`,
+// stiffness, rest of each spring, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n). implicit_euler.all: after the
+// last step, x (3) and v (3) of each particle implicit_euler.watch (the input ends with the index of a particle): after
+// each step, x and v of this particle
 #include <stdexcept>
 #include <utility>
 

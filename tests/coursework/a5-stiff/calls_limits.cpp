@@ -1,6 +1,6 @@
 // Calls of largest_stable_step.
 //   limits.step: rule (index in the enum), then omega, gamma of each oscillator
-//                a row each: 0, 0 if no step is stable; 1, the step; 2, 0 if every step is stable
+//                two numbers for each: 0, 0 if no step is stable; 1 and the step; 2, 0 if every step is stable
 #include <cmath>
 
 #include "calls.h"

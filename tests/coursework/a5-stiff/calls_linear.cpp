@@ -1,4 +1,4 @@
-// Calls of solve. Both begin with n, a (n x n, by rows), b (n).
+// Calls of solve. Their input is n, `a` (n x n, by rows), `b` (n).
 //   linear.solve       a row for each component of x
 // linear.singular    1 if std::domain_error is thrown, 0 if something is returned
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// Recovers the equation that a student's implicit step solves from its answers: on a line each term is a number, and
-// the change of the velocity times the mass is a linear combination of the terms.
+// Recovers the equation that a student's implicit step solves from the student's answers: for motion along a line each
+// term is a number, and mass times change of velocity is a linear combination of the terms.
 #include <cmath>
 
 #include "tests/coursework/grader/assignment.h"
@@ -40,7 +40,7 @@ struct Read {
   Numbers right, found;
 };
 
-/// Coefficients of m dv of particle i as a sum of the terms. `found` is empty if m dv is no such sum.
+/// Coefficients of the terms whose sum is m dv of particle `i`. `found` is empty if m dv is no such sum.
 Read read_off(const std::vector<Pair>& pairs, const std::vector<Answer>& answers, int i, bool beside_fixed) {
   Read read{{{"h m g"}, {"h c v"}, {"h c dv"}, {"h k e"}, {"h^2 k v"}, {"h^2 k dv"}}, {1, -1, -1, -1, -1, -1}, {}};
   if (!beside_fixed) {

@@ -39,7 +39,7 @@ Case jacobian(const Points& ends, double k, double rest) {
     tangent.add_product(1, 0, unit, out);
     for (int i = 0; i < 3; ++i) c.expected[3 * i + j] = -out(i, 0);
   }
-  c.tolerance = 1e-11 * k;  // a dozen roundings of numbers below 3 k
+  c.tolerance = 1e-11 * k;  // allows for a dozen roundings of numbers below 3 k
   return c;
 }
 
@@ -62,7 +62,8 @@ std::vector<Case> at_rest(Random& random) {
   return cases;
 }
 
-/// Along an axis, for which the matrix is diagonal: stretched, compressed, at rest; then across two axes.
+/// A stretched, a compressed and an unstretched spring along an axis, for which the matrix is diagonal; a spring at an
+/// angle to two axes; and one of length 0.
 std::vector<Case> small_springs(Random&) {
   std::vector<Case> cases;
   for (const auto& [x, y, rest] : {std::array{2., 0., 1.}, std::array{2., 0., 3.}, std::array{2., 0., 2.},
@@ -78,9 +79,9 @@ std::vector<Case> small_springs(Random&) {
 
 using Rows = std::vector<Numbers>;
 
-/// Diagonal entries 20, 22, ... 40, the others from low to high, at most 3. If n <= 6, each column's diagonal entry
-/// exceeds the sum of the others by at least 5, so that the norm of the inverse is below 0.2, the condition number
-/// below 12, and the error below 1e-13.
+/// A matrix whose diagonal entries are even numbers from 20 to 40, and whose other entries are from `low` to `high`, at
+/// most 3 in magnitude. If n <= 6, each column's diagonal entry exceeds the sum of the other magnitudes by at least 5,
+/// so that the norm of the inverse is at most 0.2, the condition number below 12, and the error below 1e-13.
 Rows strong_diagonal(Random& random, int n, int low, int high) {
   Rows a(n, Numbers(n));
   for (int i = 0; i < n; ++i)
@@ -128,7 +129,7 @@ std::vector<Case> singular(Random& random) {
   for (const int n : {3, 4}) {
     Rows a = strong_diagonal(random, n, n == 3 ? -3 : 1, 3);
     for (int j = 0; j < n; ++j) a[n - 1][j] = (a[0][j] + a[1][j]) / 2;
-    // the larger one has negative entries only, and its last pivot is small but not zero
+    // the larger matrix has only negative entries, and its last pivot is small but not zero
     if (n == 4) a[3][3] += 2e-13;
     cases.push_back(linear("linear.singular", a, whole(random, n), n == 3 ? 1 : -1));
     cases.back().expected = {1}, cases.back().row = "call", cases.back().column = "thrown";
@@ -220,7 +221,7 @@ bool add(Case& c, double omega, double duration, double tolerance, double h) {
   if (over < 0.05 || over > 0.95) return false;
   c.in.insert(c.in.end(), {omega, duration, tolerance});
   c.expected.push_back(duration / std::ceil(steps));
-  c.tolerance = 1e-10 * duration / steps;  // one root and a few roundings
+  c.tolerance = 1e-10 * duration / steps;  // allows for one root and a few roundings
   return true;
 }
 
@@ -229,7 +230,7 @@ std::vector<Case> accurate_steps(Random& random) {
   for (const auto& [rule, order, constant] : table) {
     Case c = predicted(rule);
     while (c.expected.size() < 3) {
-      // h omega from 0.1 to 0.5: far below every limit
+      // h omega is from 0.1 to 0.5, far below every limit
       const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega;
       // round numbers get half a step more, so that rounding cannot decide the number of steps
       const double duration = (random.uniform(8, 40) + (random.rounds() ? 0.5 : 0)) * wanted;
@@ -261,7 +262,7 @@ std::vector<Case> stable_steps(Random& random) {
       add(c, omega, (random.uniform(4, 12) + (random.rounds() ? 0.5 : 0)) * h, 1e6, h);
     }
     cases.push_back(c);
-    cases.back().tolerance *= 1e3;  // limits are required to eight digits; ours have eleven
+    cases.back().tolerance *= 1e3;  // the hand-out asks for only eight digits of a limit
   }
   for (const Rule rule : {explicit_euler, trapezoidal}) {
     Case c = predicted(rule);
@@ -288,7 +289,7 @@ std::vector<Case> measured_steps(Random& random) {
     }
     // the error of a run is exactly c h^p
     c.expected = {std::pow(tolerance / largest, 1. / order)};
-    c.tolerance = 1e-10 * c.expected[0];  // two runs of size 1 whose difference is above 1e-3
+    c.tolerance = 1e-10 * c.expected[0];  // the two runs are of size 1, and their difference is above 1e-3
     cases.push_back(c);
   }
   return cases;

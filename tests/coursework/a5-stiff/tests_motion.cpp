@@ -1,5 +1,5 @@
-// Expected answers: closed forms on a line and in free fall; otherwise mysim's forces and tangents in a dense solve by
-// Eigen or, for linear forces, mysim's own implicit Euler.
+// Expected answers are closed forms for motion on a line and free fall; otherwise mysim's forces and tangents with a
+// dense solve by Eigen or, for linear forces, mysim's own implicit Euler.
 #include "tests/coursework/a5-stiff/tests_motion.h"
 
 #include <Eigen/Dense>
@@ -38,8 +38,9 @@ void add_row(const Scene& s, int i, Numbers& out) {
   for (const Points* p : {&s.x, &s.v}) put(out, Vec3(p->col(i)));
 }
 
-/// A step is a well-conditioned solve (each case says why), which costs a digit or two of sixteen, and errors do not
-/// add up over damped steps: 1e-9 of the largest number allows for any order of summation.
+/// Relative tolerance. A step solves a well-conditioned system (each case says why), which costs a few of sixteen
+/// digits, and damping keeps errors of different steps from adding up: 1e-9 of the largest number allows for any order
+/// of summation.
 constexpr double accuracy = 1e-9;
 
 Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) {
@@ -54,7 +55,7 @@ Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) 
   }
   c.columns = 6, c.row = "step", c.column = "motion", c.row_size = start.h;
   for (const double value : c.expected) c.tolerance = std::max(c.tolerance, accuracy * std::abs(value));
-  // the component with the largest range
+  // the plot shows the component with the largest range
   double widest = -1;
   for (int part = 0; part < 3; ++part) {
     double low = c.expected[part], high = low;
@@ -130,8 +131,8 @@ void linearised_step(Scene& s) {
   }
 }
 
-/// Along the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2) and e' = e
-/// + h v'.
+/// Motion along the line through both ends, on which the spring is linear: with e = L - r, the step is v' = (v - h w^2
+/// e) / (1 + (h w)^2), e' = e + h v'.
 void oscillator_step(Scene& s) {
   const crosscheck::Spring& spring = s.springs[0];
   const int free = s.fixed[0] ? 1 : 0;
@@ -149,7 +150,7 @@ void falling_step(Scene& s) {
   }
 }
 
-/// n particles on a line between two fixed ends, each spring longer than its rest length.
+/// n particles on a line, of which the first and last are fixed. Each spring is longer than its rest length.
 Scene chain(Random& random, double rest_of_length, int n = 6) {
   Scene s;
   s.x.resize(3, n), s.v.setZero(3, n);
@@ -180,12 +181,12 @@ std::vector<Case> one_spring(Random& random) {
     const Vec3 u = random_direction(random);
     s.x.resize(3, 2), s.v.setZero(3, 2);
     s.x.col(fixed) = random_vector(random, 1);
-    // too little energy to reach the fixed end
+    // the particle has too little energy to reach the fixed end
     s.x.col(1 - fixed) = s.x.col(fixed) + u * rest * random.uniform(1.2, 1.4);
     s.v.col(1 - fixed) = u * rest * omega * random.uniform(0.2, 0.4) * (random.integer(0, 1) ? 1 : -1);
     s.mass = {mass, mass}, s.fixed = {fixed == 0, fixed == 1};
     s.springs = {{0, 1, k, rest, crosscheck::Family::single}};
-    // the only divisor is 1 + (h omega)^2
+    // the step is well conditioned: its only divisor is 1 + (h omega)^2
     cases.push_back(watched(s, long_step < 1 ? 25 : 6, 1 - fixed, oscillator_step));
   }
   return cases;
@@ -198,7 +199,7 @@ std::vector<Case> gravity_and_drag(Random& random) {
   for (int i = 0; i < 2; ++i) s.x.col(i) = random_vector(random, 2), s.v.col(i) = random_vector(random, 3);
   s.gravity = random_direction(random) * random.uniform(5, 12);
   s.drag = random.uniform(1, 3), s.h = random.uniform(0.1, 0.5);
-  // the matrix is diagonal
+  // the step is well conditioned: its matrix is diagonal
   return {watched(s, 12, 0, falling_step), watched(s, 12, 1, falling_step)};
 }
 
@@ -217,8 +218,8 @@ Case network_of(Random& random, int count) {
     s.v.col(i) = random_vector(random, 2);
     s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
     for (int j = 0; j < i; ++j) {
-      // springs shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so that its
-      // condition number is below a hundred
+      // springs that are shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so that
+      // its condition number is below a hundred
       const double length = (s.x.col(i) - s.x.col(j)).norm(), k = random.uniform(0.5, 1.25) * 0.5 / (s.h * s.h);
       s.springs.push_back({i, j, k, length * random.uniform(0.6, 1.1), crosscheck::Family::single});
     }
@@ -240,7 +241,7 @@ std::vector<Case> network(Random& random) { return {network_of(random, 4), netwo
 std::vector<Case> small_network(Random& random) { return {network_of(random, 1), network_of(random, 2)}; }
 
 std::vector<Case> stiff_chain(Random& random) {
-  // stretched springs only: the condition number is that of 1 + h^2 k 4 / m, below a thousand
+  // springs are only stretched, so that the condition number is at most about 1 + 4 h^2 k / m, below a thousand
   const Scene threads = chain(random, 0), springs = chain(random, random.uniform(0.8, 0.95));
   return {watched(threads, 15, random.integer(1, 4), whole_step),
           watched(springs, 15, random.integer(1, 4), linearised_step)};

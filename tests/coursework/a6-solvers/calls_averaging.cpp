@@ -1,9 +1,9 @@
 // Calls of averaging_pass, averaging_step and stiffness_of.
 //   averaging.pass        net, x (3 n)                              three numbers for each particle
 //   averaging.state       net, x (3 n), v (3 n), h, passes, steps   position and velocity of each particle at the end
-//   averaging.stiffness   mass, h, passes of each                   a row for each
+//   averaging.stiffness   mass, h, passes of each case              the stiffness for each case
 //   averaging.rest        a chain, h                                with 1, 2, 4, ... 32 passes a step: the stretch of
-//                                                                   the chain at rest, in percent of the exact one
+//                                                                   the chain at rest, in percent of the exact stretch
 #include "calls_read.h"
 
 namespace coursework {

@@ -1,8 +1,8 @@
-// Calls of left_over, falling, step_growth and diverges_from; all but the last return a row for each group of numbers.
-//   leftover.part       mu, rho, passes                             the part that is left
+// Calls of left_over, falling, step_growth and diverges_from. The first three return a result for each group of inputs.
+//   leftover.part       mu, rho, passes                             the fraction of the error that remains
 //   leftover.falling    mass, stiffness, h, rho, passes, gravity    the acceleration
 //   leftover.growth     mu, inertia, rho, passes                    the growth in a step
-//   leftover.diverges   inertia, passes, eigenvalues                the rho
+//   leftover.diverges   inertia, passes, eigenvalues                the rho at which steps begin to diverge
 #include "calls_read.h"
 
 namespace coursework {

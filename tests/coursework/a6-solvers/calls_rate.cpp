@@ -1,7 +1,7 @@
 // Calls of spectral_radius, factor and slower_from.
 //   rate.radius       n, B (n x n), error (n)         the spectral radius
-//   rate.factor       rho, then mu of each error      a row for each
-//   rate.slower       lowest, highest of each B       a row for each
+//   rate.factor       rho, then mu of each error      the factor of each error
+//   rate.slower       lowest, highest eigenvalue      the rho, for each pair of eigenvalues
 #include "calls_read.h"
 
 namespace coursework {

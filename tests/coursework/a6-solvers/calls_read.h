@@ -1,4 +1,4 @@
-// Readers of nets, and functions that take steps and let a chain come to rest, for the calls of several parts.
+// Readers of nets, and checked calls of the student's functions, shared by several parts.
 #pragma once
 
 #include "solvers.h"
@@ -6,7 +6,7 @@
 
 namespace coursework {
 
-/// n, mass, stiffness, gravity (3), number of springs, a, b, rest of each, held (n; 0 or 1).
+/// Reads n, mass, stiffness, gravity (3), number of springs, `a`, `b`, `rest` of each spring, held (n; 0 or 1).
 inline Net read_net(Reader& in) {
   const std::size_t n = in.count();
   Net net;
@@ -19,7 +19,7 @@ inline Net read_net(Reader& in) {
   return net;
 }
 
-/// Calls the student's function, which may read x but not change it, and which must return a vector for every particle.
+/// Calls the student's function, which must not change `x` and must return a vector for every particle.
 template <class Function>
 std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
   const std::vector<Vec3> given = x;
@@ -30,7 +30,7 @@ std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
   return got;
 }
 
-/// Stretch of a chain after `steps` steps, in percent of the stretch of its springs at rest.
+/// Stretch of a chain after `steps` steps, in percent of the exact stretch at rest.
 template <class Step>
 double stretch_at_rest(const Net& chain, int steps, const char* function, const Step& step) {
   State state = straight_state(chain);
@@ -39,7 +39,7 @@ double stretch_at_rest(const Net& chain, int steps, const char* function, const 
   return 100 * (-state.x.back().y - length) * chain.stiffness / (-chain.mass * chain.gravity.y * n * (n + 1) / 2);
 }
 
-/// Number of particles, mass, stiffness, rest length, gravity.
+/// Reads the number of particles that hang, mass, stiffness, rest length, gravity.
 inline Net read_chain(Reader& in) {
   const int n = in.integer();
   const double mass = in.number(), stiffness = in.number(), rest = in.number();

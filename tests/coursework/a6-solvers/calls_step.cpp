@@ -1,12 +1,12 @@
 // Calls of weights and implicit_step.
-//   step.weights   rho, passes                                       a row for each pass
+//   step.weights   rho, passes                                       the weight of each pass
 //   step.state     net, x (3 n), v (3 n), h, rho, passes, steps      position and velocity of each particle at the end
 //   step.errors    net, x (3 n), v (3 n), h, rho, exact step (3 n)   with 1, 2, 4, ... 128 passes: the largest distance
 //                                                                    from the exact step
 //   step.rest      a chain, h, rho                                   with 1, 2, 4, ... 32 passes a step: the stretch of
-//                                                                    the chain at rest, in percent of the exact one
+//                                                                    the chain at rest, in percent of the exact stretch
 //   step.net       particles along a side, side, mass, stiffness, gravity, h, rho, passes, steps
-//                                                                    the place of the middle particle after each step
+//                                                                    position of the middle particle after each step
 #include <algorithm>
 
 #include "calls_read.h"

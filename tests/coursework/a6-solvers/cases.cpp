@@ -1,5 +1,5 @@
-// Forces and tangents are mysim's; the weights and the remaining errors after passes are Chebyshev polynomials in
-// closed form; the exact step is mysim's implicit Euler; the rest state of averaging is a power of a matrix.
+// Forces and tangents are mysim's. Weights, and errors that remain after passes, are Chebyshev polynomials in closed
+// form. The exact step is mysim's implicit Euler. The rest state of averaging is computed from a power of a matrix.
 #include "tests/coursework/a6-solvers/cases.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// T_n(s), divided by e^(n acosh s) if that is large: cos or cosh of n times an angle.
+/// Chebyshev polynomial T_n(s): cos or cosh of n times an angle.
 double chebyshev(int n, double s) {
   if (std::abs(s) <= 1) return std::cos(n * std::acos(s));
   return (s < 0 && n % 2 == 1 ? -1 : 1) * std::cosh(n * std::acosh(std::abs(s)));
@@ -52,14 +52,14 @@ Points forces(const Scene& s, const Points& x, double stiffness, bool gravity) {
   return s.mass * a;
 }
 
-/// `ahead` is x at held particles.
+/// Gradient of the implicit equation. `ahead` equals `x` at held particles.
 Points gradient(const Scene& s, const Points& ahead, const Points& x) {
   return s.mass / (s.h * s.h) * (x - ahead) - forces(s, x, s.stiffness, true);
 }
 
 constexpr double velocity_kept = 0.99;
 
-/// Fraction of a deviation from rest that a step leaves of the place to which the velocity alone leads.
+/// For a deviation from rest: its value after a step, divided by its value if only the velocity acted.
 double left_after_step(double mu, double inertia, double rho, int passes) {
   return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
 }
@@ -93,13 +93,13 @@ Case about(const char* call, const Scene& s, const char* column, int columns) {
   return {.call = call, .in = numbers(s), .columns = columns, .row = "particle", .column = column};
 }
 
-/// Sets the tolerance: a few dozen roundings of numbers of the given size.
+/// Sets the tolerance, which allows for a few dozen roundings of numbers as large as the expected ones.
 void compared(Case& c) {
   for (const double value : c.expected) c.tolerance = std::max(c.tolerance, 1e-11 * std::abs(value));
 }
 
-/// Distorted corners of a tetrahedron, with springs between all pairs; particle `held` is held, none if it is -1.
-/// k h^2 / m is about 5, as in the net of the course.
+/// Particles at distorted corners of a tetrahedron, with springs between all pairs. `held` is the index of the particle
+/// that is held, or -1. k h^2 / m is about 5, as in the net of the course.
 Scene tangle(Random& random, int count, int held) {
   Scene s;
   s.mass = random.uniform(0.5, 2), s.h = random.uniform(0.02, 0.05);
@@ -132,7 +132,7 @@ Case of_pass(const char* call, Random& random, const Scene& s) {
   return c;
 }
 
-/// The scene with two particles in the same place.
+/// Moves one particle of the scene to the position of another particle.
 Scene met(Scene s) {
   s.x.col(1) = s.x.col(2);
   return s;
@@ -159,7 +159,6 @@ Case of_averaging(const Scene& s) {
   return c;
 }
 
-/// Particles, mass, stiffness, rest length, gravity, step.
 struct HangingChain {
   int n;
   double mass, stiffness, rest, gravity, h;
@@ -218,7 +217,7 @@ double step_growth(double mu, double inertia, double rho, int passes) {
   return growth((1 + velocity_kept) * q, velocity_kept * q);
 }
 
-// deviations grow if the fraction of a displacement that a step leaves is above 1 or below -1 / (1 + 2 c)
+// deviations grow if q is above 1 or below -1 / (1 + 2 c), where c is velocity_kept
 bool grows(const VectorXd& mu, double inertia, double rho, int passes) {
   return std::any_of(mu.begin(), mu.end(), [&](double one) {
     const double q = left_after_step(one, inertia, rho, passes);
@@ -280,8 +279,8 @@ std::vector<Case> steps(Random& random) {
       of_steps("step.state", tangle(random, 2, 0), 1, 1, 0), of_steps("step.state", tangle(random, 2, 0), 1, 2, rho),
       of_steps("step.state", tangle(random, 3, -1), 1, 4, rho), of_steps("step.state", tangle(random, 3, 0), 3, 3, 0)};
 }
-/// Springs without a rest length are linear: passes multiply all errors of the same kind by the same factor, and the
-/// exact step is mysim's.
+/// Springs of rest length 0 are linear: passes multiply each eigenvector of the error by a factor, and mysim computes
+/// the exact step.
 std::vector<Case> falling_errors(Random& random) {
   std::vector<Case> cases;
   for (const double rho : {0., std::round(random.uniform(0.6, 0.9) * 100) / 100}) {
@@ -305,7 +304,7 @@ std::vector<Case> falling_errors(Random& random) {
                                                     (kinds.eigenvectors().transpose() * error));
       c.expected.push_back(left.reshaped(3, 3).colwise().norm().maxCoeff());
     }
-    c.row = "passes", c.tolerance = 1e-8 * first.norm(), c.plot_y = 0;  // residual of mysim's own solve
+    c.row = "passes", c.tolerance = 1e-8 * first.norm(), c.plot_y = 0;  // allows for the residual of mysim's own solve
     cases.push_back(c);
   }
   return cases;
@@ -343,7 +342,8 @@ std::vector<Case> averaged_steps(Random& random) {
   return {of_steps("averaging.state", tangle(random, 2, 0), 1, 1, 0),
           of_steps("averaging.state", tangle(random, 3, -1), 3, 2, 0)};
 }
-/// On a line a pass is linear: the stretches y of the depths become B y. At rest y = B^n (y + h^2 g).
+/// On a line a pass is linear: it multiplies the displacements y by a matrix B. At rest after n passes, y = B^n (y +
+/// h^2 g).
 std::vector<Case> rest_by_averaging(Random& random) {
   const HangingChain chain = hanging(random);
   const int n = chain.n;
@@ -361,7 +361,7 @@ std::vector<Case> rest_by_averaging(Random& random) {
     const double depth = (MatrixXd::Identity(n, n) - power).lu().solve(pushed)[n - 1];
     c.expected.push_back(100 * depth * chain.stiffness / (chain.mass * chain.gravity * n * (n + 1) / 2));
   }
-  // depths of a few metres are rounded, and the exact stretch is a few millimetres of them
+  // the stretch of a few millimetres is a difference of depths of a few metres, which are rounded
   c.tolerance = 1e-8 * c.expected[0];
   return {c};
 }

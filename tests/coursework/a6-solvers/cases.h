@@ -8,7 +8,7 @@
 
 namespace coursework::a6 {
 
-/// A net in the numbers of the calls, at a state.
+/// A net and its state.
 struct Scene {
   double mass = 1, stiffness = 1, h = 1;
   crosscheck::Vec3 gravity = crosscheck::Vec3::Zero();
@@ -22,16 +22,16 @@ struct Scene {
   Eigen::MatrixXd iteration() const;
 };
 
-/// T_n(mu / rho) / T_n(1 / rho): the fraction of an error that n passes leave; mu^n if rho is 0.
+/// Fraction of an error that remains after n passes: T_n(mu / rho) / T_n(1 / rho), or mu^n if rho is 0.
 double left_over(double mu, double rho, int passes);
 
-/// One step by the given number of accelerated passes.
+/// Advances the scene by one step with the given number of accelerated passes.
 void step(Scene& scene, int passes, double rho);
 
 /// The largest |z| of the roots of z^2 - sum z + product = 0.
 double growth(double sum, double product);
-/// Long-run growth of a deviation from rest per step of the given number of passes; whether any of several deviations
-/// grows; and the first rho at which one does (1: none does).
+/// step_growth: long-run growth of a deviation from rest in each step of the given number of passes. grows: whether any
+/// of several deviations grows. diverges_from: the smallest rho at which one of them grows, or 1.
 double step_growth(double mu, double inertia, double rho, int passes);
 bool grows(const Eigen::VectorXd& mu, double inertia, double rho, int passes);
 double diverges_from(const Eigen::VectorXd& mu, double inertia, int passes);

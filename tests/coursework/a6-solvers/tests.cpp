@@ -16,7 +16,7 @@ std::vector<Case> weights(Random& random) {
   for (const int passes : {1, 2, 8}) {
     const double rho = random.uniform(0.5, 0.98);
     Case c{"step.weights", {rho, double(passes)}, {1}, 1, 1e-12, "pass", "weight"};
-    // the ratio of polynomials of neighbouring degrees
+    // a weight is a ratio of Chebyshev polynomials of neighbouring degrees
     for (int k = 2; k <= passes; ++k)
       c.expected.push_back(2 / rho * a6::left_over(rho, rho, k) / a6::left_over(rho, rho, k - 1));
     cases.push_back(c);
@@ -62,7 +62,7 @@ std::vector<Case> radii(Random& random) {
   return {radius_of(random, b, sizes[5]), radius_of(random, mirror * mu.asDiagonal() * mirror, -mu[0])};
 }
 
-/// Long-run growth per accelerated pass.
+/// Factor by which an accelerated pass multiplies an error in the long run.
 double growth(double mu, double rho) {
   const double w = 2 / (1 + std::sqrt(1 - rho * rho));
   return a6::growth(w * mu, w - 1);
@@ -71,7 +71,7 @@ std::vector<Case> factors(Random& random) {
   std::vector<Case> cases;
   for (const double rho : {0., random.uniform(0.5, 0.7), random.uniform(0.8, 0.98)}) {
     Case c{"rate.factor", {rho}, {}, 1, 1e-10, "error", "factor"};
-    // within rho, above it, beyond 1; no two solutions coincide, which would halve the digits
+    // |mu| is below rho, above rho, or above 1; near rho two solutions would coincide, which halves the digits
     for (const double mu : {0.5 * rho, -0.7 * rho, rho + 0.6 * (1 - rho), -rho - 0.3 * (1 - rho), 1.03}) {
       c.in.push_back(mu);
       c.expected.push_back(growth(mu, rho));
@@ -81,7 +81,7 @@ std::vector<Case> factors(Random& random) {
   return cases;
 }
 
-/// The rho, found by bisection, at which the long-run factor of the slowest error equals that of plain passes again.
+/// The rho, found by bisection, above which accelerated passes reduce the slowest error less than plain passes do.
 double break_even(double radius) {
   double low = radius, high = 1;
   for (int i = 0; i < 60; ++i) {
@@ -90,7 +90,7 @@ double break_even(double radius) {
   }
   return low;
 }
-/// Nets in their hanging shape, stretched to many times their rest lengths (every other particle overshoots), and
+/// Nets that are stretched a little, stretched to many times their rest lengths (every other particle overshoots), or
 /// compressed (a buckling mode has zero or negative stiffness).
 std::vector<Case> turning_points(Random& random) {
   Case c{"rate.slower", {}, {}, 1, 1e-7, "net", "rho"};
@@ -135,7 +135,7 @@ std::vector<Case> growths(Random& random) {
   Case c{"leftover.growth", {}, {}, 1, 1e-9, "error", "growth"};
   for (const int passes : {1, 2, 5, 8})
     for (const double rho : {0., random.uniform(0.6, 0.99)}) {
-      // within the range of a net: from the share of inertia to the size at which each kind of error alternates in sign
+      // mu as it occurs in nets: at most 1 - inertia, and negative for errors that alternate in sign
       const double inertia = random.uniform(0.02, 0.1),
                    mu = random.uniform(-0.7, passes == 1 ? -0.2 : 1 - 1.5 * inertia);
       const double growth = a6::step_growth(mu, inertia, rho, passes);
@@ -144,9 +144,9 @@ std::vector<Case> growths(Random& random) {
     }
   return {c};
 }
-/// The rho at which deviations of a net at this state begin to grow. States are redrawn (up to a limit) until
-/// deviations grow, so that no search with the hand-out's steps misses the rho; with 16 passes coarser steps do. A
-/// single pass does not depend on rho: deviations grow for every rho, or for none.
+/// The rho at which deviations of a random net begin to grow. Nets are redrawn until deviations also grow for the rho
+/// that follow, so that a search with the hand-out's steps cannot miss this range; with 16 passes, coarser steps miss
+/// it. A single pass does not depend on rho: deviations grow for every rho, or for none.
 std::vector<Case> divergences(Random& random) {
   std::vector<Case> cases;
   for (const int passes : {random.integer(3, 6), random.integer(7, 11), 1, 16}) {
@@ -167,7 +167,7 @@ std::vector<Case> divergences(Random& random) {
   return cases;
 }
 
-// ---- averaging: on one spring a pass leaves (0.2 + 1/2) / 1.2 of the stretch
+// ---- averaging: a pass multiplies the stretch of a single spring by (0.2 + 1/2) / 1.2
 
 std::vector<Case> stiffnesses(Random& random) {
   Case c{"averaging.stiffness", {}, {}, 1, 0, "spring", "stiffness"};

@@ -1,4 +1,4 @@
-// The error of a rule is constant * omega T * (h omega)^order; solved for h.
+// The error of a rule is constant * omega T * (h omega)^order, which is solved for h.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// dF/dx = -k (n n^T + (1 - r/L) (I - n n^T)): k along the spring, the tension over the length across it.
+// dF/dx = -k (n n^T + (1 - r/L) (I - n n^T)): the stiffness is k along the spring, and tension / length across it.
 #include <cmath>
 
 #include "stiff.h"

@@ -9,7 +9,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// |R(z)| of a rule that is the Taylor polynomial of exp of this order.
+/// |R(z)| of a rule whose R is the Taylor polynomial of exp up to this order.
 double size(int order, Complex z) {
   Complex sum = 1, power = 1;
   for (int i = 1; i <= order; ++i) {

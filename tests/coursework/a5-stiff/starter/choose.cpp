@@ -1,4 +1,4 @@
-// Which step to take.
+// The choice of the step.
 #include "stiff.h"
 
 double predicted_step(Rule rule, double omega, double duration, double tolerance) {

@@ -10,8 +10,8 @@ using Matrix3 = std::array<Vec3, 3>;  // m[row][column]
 using Vector = std::vector<double>;
 using Matrix = std::vector<Vector>;  // a[row][column]
 
-/// Between particles a and b. With d = x_a - x_b and L = |d| the force on a is -stiffness (L - rest) d / L, and the
-/// force on b is the opposite.
+/// A spring between particles `a` and `b`. With d = x_a - x_b and L = |d|, the force on `a` is -stiffness (L - rest) d
+/// / L, and the force on `b` is the opposite.
 struct Spring {
   int a, b;
   double stiffness, rest;  // N/m, m
@@ -31,13 +31,13 @@ struct State {
 
 enum class Rule { explicit_euler, trapezoidal, rk4, symplectic_euler, leapfrog, implicit_euler };
 
-/// jacobian.cpp: the derivative dF_a/dx_a of a spring's force on its end a, at d = x_a - x_b. All zeros if d is zero.
+/// jacobian.cpp: the derivative dF_a/dx_a of a spring's force on its end `a`, at d = x_a - x_b. All zeros if d is zero.
 Matrix3 spring_jacobian(const Vec3& d, double stiffness, double rest);
 
-/// linear.cpp: the x with a x = b. Throws std::domain_error if a is singular (see the handout).
+/// linear.cpp: the solution x of `a` x = `b`. Throws std::domain_error if `a` is singular (see the handout).
 Vector solve(Matrix a, Vector b);
 
-/// implicit_euler.cpp: the state after one linearised implicit Euler step of h. Calls the two functions above.
+/// implicit_euler.cpp: the state after one linearised implicit Euler step of length h. Calls the two functions above.
 State implicit_euler_step(const System& system, const State& state, double h);
 
 /// limits.cpp: the largest step (s) at which the solution by the rule does not grow on u'' = -omega^2 u - gamma u'.
@@ -49,5 +49,5 @@ double largest_stable_step(Rule rule, double omega, double gamma);
 double predicted_step(Rule rule, double omega, double duration, double tolerance);
 
 /// choose.cpp: run(h) is the final state of a run with steps of h, by a rule of this order. Returns the step whose
-/// error equals the tolerance, estimated from two runs: with h and with h/2.
+/// error equals the tolerance, as estimated from two runs, one with h and one with h/2.
 double measured_step(const std::function<Vector(double)>& run, int order, double h, double tolerance);

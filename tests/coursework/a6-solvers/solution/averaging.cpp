@@ -1,4 +1,4 @@
-// Each spring says where its ends should be; each end goes to the mean of what it is told.
+// Each spring proposes positions of its ends; each particle moves to the weighted mean of these positions and its own.
 #include <cmath>
 
 #include "solvers.h"
@@ -32,7 +32,8 @@ State averaging_step(const Net& net, const State& state, double h, int passes) {
   return after;
 }
 
-// a pass leaves (0.2 + 1/2) / (0.2 + 1) of the stretch; at rest, what gravity adds in a step is what the passes take
+// a pass leaves (0.2 + 1/2) / (0.2 + 1) of the stretch; at rest, the passes remove the stretch that gravity adds in a
+// step
 double stiffness_of(double mass, double h, int passes) {
   return mass / (h * h) * (std::pow((own_weight + 1) / (own_weight + 0.5), passes) - 1);
 }

@@ -1,4 +1,4 @@
-// An error goes through the same passes as the positions, one number in place of all.
+// An error undergoes the same passes as the positions, but is a single number.
 #include <cmath>
 
 #include "solvers.h"
@@ -13,14 +13,14 @@ double left_over(double mu, double rho, int passes) {
   return now;
 }
 
-// nothing but inertia turns the gradient, so that mu is what 4 k has of the whole slope
+// only inertia contributes to the gradient, so that mu is the ratio of 4 k to the whole slope
 double falling(double mass, double stiffness, double h, double rho, int passes, double gravity) {
   const double inertia = mass / (h * h), mu = 4 * stiffness / (inertia + 4 * stiffness);
   return (1 - left_over(mu, rho, passes)) * gravity;
 }
 
-// at rest the exact step would leave m/h^2 of m/h^2 + lambda of where the velocity leads; the passes leave q of it, and
-// the next place is q ((1 + c) x - c x_before): z^2 - (1 + c) q z + c q = 0
+// near rest, velocity alone leads to the deviation (1 + c) x - c x_before. The exact step multiplies it by m/h^2 over
+// m/h^2 + lambda, the passes multiply it by q. The growth z solves z^2 - (1 + c) q z + c q = 0
 double step_growth(double mu, double inertia, double rho, int passes) {
   const double exact = inertia / (1 - mu), q = exact + left_over(mu, rho, passes) * (1 - exact);
   const double half = (1 + velocity_kept) * q / 2, root = half * half - velocity_kept * q;

@@ -1,4 +1,4 @@
-// The gradient of what the implicit step minimises, and a pass that goes down it.
+// The gradient of the function that the implicit step minimises, and a pass that descends along this gradient.
 #include "solvers.h"
 
 std::vector<Vec3> gradient(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h) {

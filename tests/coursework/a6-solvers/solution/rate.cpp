@@ -1,4 +1,4 @@
-// The slowest error, and what acceleration makes of it.
+// The factor of the slowest error, without and with acceleration.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Passes from the place that velocity alone would lead to, each carried on by Chebyshev's weight.
+// Passes start from the positions to which velocity alone would lead; Chebyshev's weights extrapolate each pass.
 #include "solvers.h"
 
 std::vector<double> weights(int passes, double rho) {

@@ -1,4 +1,4 @@
-// The part of a step that a few passes leave over.
+// The error that remains after a few passes.
 #include "solvers.h"
 
 double left_over(double mu, double rho, int passes) {

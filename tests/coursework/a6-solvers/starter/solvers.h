@@ -7,8 +7,8 @@
 
 #include "vec3.h"
 
-/// Between particles a and b. With d = x_a - x_b and L = |d| the force on a is -k (L - rest) d / L, and the force on b
-/// is the opposite. If L is 0 there is no direction and no force.
+/// A spring between particles `a` and `b`. With d = x_a - x_b and L = |d|, the force on `a` is -k (L - rest) d / L, and
+/// the force on `b` is the opposite. If L is 0 there is no direction and no force.
 struct Spring {
   int a, b;
   double rest;  // m
@@ -26,9 +26,9 @@ struct State {
   std::vector<Vec3> x, v;  // m, m/s
 };
 
-/// The part of a velocity that damping leaves at the start of each step.
+/// Damping multiplies velocities by this factor at the start of each step.
 constexpr double velocity_kept = 0.99;
-/// Weight of a particle's own place in the averaging; each of its springs has the weight 1.
+/// Weight of a particle's own position in the averaging; each of its springs has the weight 1.
 constexpr double own_weight = 0.2;
 
 /// side x side particles at rest, `width` metres on each side, in the plane of x and z.
@@ -40,8 +40,8 @@ inline State square_state(int side, double width) {
   return state;
 }
 
-/// The net that is at its rest lengths in this state: springs along the sides of all cells and along one diagonal of
-/// each; the first and the last particle of the first row are held.
+/// The net whose springs are at their rest lengths in this state. It has springs along the sides of all cells and along
+/// one diagonal of each cell; the first and the last particle of the first row are held.
 inline Net square_net(int side, double mass, double stiffness, const Vec3& gravity, const State& state) {
   Net net{mass, stiffness, gravity, {}, std::vector<bool>(state.x.size(), false)};
   const auto add = [&](int a, int b) {
@@ -57,7 +57,7 @@ inline Net square_net(int side, double mass, double stiffness, const Vec3& gravi
   return net;
 }
 
-/// A chain of n particles below a held one.
+/// A chain of n particles that hang below a held particle.
 inline Net hanging_chain(int n, double mass, double stiffness, double rest, const Vec3& gravity) {
   Net net{mass, stiffness, gravity, {}, std::vector<bool>(static_cast<std::size_t>(n) + 1, false)};
   for (int i = 1; i <= n; ++i) net.springs.push_back({i - 1, i, rest});
@@ -65,7 +65,7 @@ inline Net hanging_chain(int n, double mass, double stiffness, double rest, cons
   return net;
 }
 
-/// Its state with all springs at their rest lengths, straight down from the origin.
+/// The state of a chain straight down from the origin, with all springs at their rest lengths.
 inline State straight_state(const Net& chain) {
   State state;
   state.x.resize(1);
@@ -76,10 +76,10 @@ inline State straight_state(const Net& chain) {
 
 // ---- pass.cpp
 
-/// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held ones. All are 0 if x is the implicit step.
+/// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held particles. All are 0 if x is the implicit step.
 std::vector<Vec3> gradient(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h);
 
-/// Each particle moved by -g / (m/h^2 + 4 k), all at once.
+/// The positions after moving each particle by -g / (m/h^2 + 4 k), all at once.
 std::vector<Vec3> jacobi_pass(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h);
 
 // ---- step.cpp
@@ -108,7 +108,7 @@ double slower_from(double lowest, double highest);
 
 // ---- leftover.cpp
 
-/// The part of an error with the eigenvalue mu that the given number of accelerated passes leaves.
+/// Fraction of an error with the eigenvalue mu that remains after the given number of accelerated passes.
 double left_over(double mu, double rho, int passes);
 
 /// The acceleration, m/s^2, with which a free net with unstretched springs begins to fall.
@@ -118,8 +118,8 @@ double falling(double mass, double stiffness, double h, double rho, int passes, 
 /// rest with the eigenvalue mu. `inertia` is m/h^2 divided by m/h^2 + 4 k.
 double step_growth(double mu, double inertia, double rho, int passes);
 
-/// The smallest rho, to six digits, at which step_growth is above 1 + 1e-9 for at least one of the eigenvalues; 1 if
-/// there is none below 1.
+/// The smallest rho, to six digits, at which step_growth is above 1 + 1e-9 for at least one of the eigenvalues; 1 if no
+/// rho below 1 has this property.
 double diverges_from(const std::vector<double>& eigenvalues, double inertia, int passes);
 
 // ---- averaging.cpp
@@ -130,5 +130,5 @@ std::vector<Vec3> averaging_pass(const Net& net, const std::vector<Vec3>& x);
 /// One step by the given number of averaging passes.
 State averaging_step(const Net& net, const State& state, double h, int passes);
 
-/// The stiffness (N/m) that the given number of passes gives to a spring by which one particle hangs on a held one.
+/// The stiffness (N/m) that the given number of passes gives to a spring between a hanging particle and a held one.
 double stiffness_of(double mass, double h, int passes);

@@ -1,4 +1,4 @@
-// A vector of three numbers and what can be done with it. Ours: do not change it, the grader uses its own copy.
+// A vector of three numbers and its operations. Do not change this file: the grader uses its own copy.
 #pragma once
 
 #include <cmath>

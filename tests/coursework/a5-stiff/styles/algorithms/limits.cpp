@@ -53,8 +53,8 @@ double largest_stable_step(Rule rule, double omega, double gamma) {
   if (rule == Rule::implicit_euler || omega + gamma <= 0) return every;
   // For small h, growth of order h^4 is hidden by round-off: without drag the trapezoidal rule always grows.
   if (rule == Rule::trapezoidal && gamma == 0) return 0;
-  // Without a spring one eigenvalue is 1. If the other is near 1, the radius of the matrix is accurate to eight digits
-  // only; the determinant equals the other eigenvalue and is fully accurate.
+  // Without a spring one eigenvalue is 1. If the other eigenvalue is near 1, the radius of the matrix is accurate to
+  // only eight digits; the determinant equals the other eigenvalue and is fully accurate.
   auto stable = [&](double h) {
     const M m = step_of(rule, omega, gamma, h);
     return (omega == 0 ? std::fabs(m.a * m.d - m.b * m.c) : radius(m)) < 1 + 1e-12;

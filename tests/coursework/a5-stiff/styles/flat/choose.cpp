@@ -31,7 +31,7 @@ double measured_step(const std::function<Vector(double)>& run, int order, double
   for (int i = 0; i < order; i++) twofold *= 2;
   double error = 0;
   for (size_t i = 0; i < one.size(); i++) {
-    const double better = (twofold * two[i] - one[i]) / (twofold - 1);  // cancels the leading error of the order
+    const double better = (twofold * two[i] - one[i]) / (twofold - 1);  // the leading error cancels
     error = std::fmax(error, std::fabs(one[i] - better));
   }
   return error > 0 ? h / std::pow(error / tolerance, 1. / order) : h;

@@ -1,4 +1,4 @@
-// Column by column: the change of the force when d changes along x, y, z.
+// The matrix by columns: the change of the force when d changes along x, y, z.
 #include <cmath>
 
 #include "stiff.h"

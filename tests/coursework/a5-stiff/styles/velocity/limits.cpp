@@ -1,5 +1,5 @@
-// By polynomials. Trapezoidal rule: |R|^2 - 1 is a cubic in h for oscillations; real modes have h |lambda| = 2. RK4:
-// Newton's method on |R|^2 - 1 with a numerical slope.
+// Limits from polynomials. For the trapezoidal rule, |R|^2 - 1 is a cubic in h if the solution oscillates; otherwise
+// the limit is h |lambda| = 2. For RK4, Newton's method on |R|^2 - 1 with a numerical slope finds the limit.
 #include <cmath>
 #include <complex>
 
@@ -30,7 +30,7 @@ double largest_stable_step(Rule rule, double w, double g) {
     case Rule::rk4: {
       // -2.785... is the real root of 24 + 12 z + 4 z^2 + z^3
       if (!swings) return 2.785293563405282 / fast(w, g);
-      // starts above the limit
+      // the iteration starts above the limit
       double h = 3.2 / w;
       for (int i = 0; i < 100; ++i) {
         const double e = 1e-6 * h, slope = (excess(w, g, h + e) - excess(w, g, h - e)) / (2 * e);

@@ -1,4 +1,4 @@
-// Each spring shifts its ends, in place of sending them somewhere.
+// Each spring proposes shifts of its ends instead of positions.
 #include "solvers.h"
 
 std::vector<Vec3> averaging_pass(const Net& net, const std::vector<Vec3>& x) {
@@ -26,7 +26,7 @@ State averaging_step(const Net& net, const State& state, double h, int passes) {
     s.v[i] += h * net.gravity;
     s.x[i] += h * s.v[i];
   }
-  // as the shifts of all passes go into the velocity
+  // the shifts of all passes add to the velocity
   for (int k = 0; k < passes; k++) {
     std::vector<Vec3> moved = averaging_pass(net, s.x);
     for (size_t i = 0; i < moved.size(); i++) s.v[i] += (moved[i] - s.x[i]) / h;

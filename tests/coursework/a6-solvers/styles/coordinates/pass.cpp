@@ -1,4 +1,4 @@
-// Coordinate by coordinate, springs from the view of each particle.
+// Loops over coordinates; for each particle, over its springs.
 #include "solvers.h"
 
 static double Vec3::*const axes[] = {&Vec3::x, &Vec3::y, &Vec3::z};

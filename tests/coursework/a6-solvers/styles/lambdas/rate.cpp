@@ -1,4 +1,4 @@
-// Rayleigh's quotient of two passes, and complex roots.
+// Uses Rayleigh's quotient of two passes, and complex roots.
 #include <algorithm>
 #include <complex>
 #include <numeric>

@@ -6,7 +6,7 @@
 
 std::vector<double> weights(int passes, double rho) {
   std::vector<double> w(static_cast<std::size_t>(passes), 1.0);
-  double before = 2;  // so that the second one comes out by the formula of the others
+  double before = 2;  // with it, the formula of the later weights holds for the second weight, too
   for (std::size_t k = 1; k < w.size(); ++k) before = w[k] = 4 / (4 - rho * rho * before);
   return w;
 }

@@ -29,7 +29,6 @@ double step_growth(double mu, double inertia, double rho, int passes) {
   return std::fmax(std::abs(sum + root), std::abs(sum - root)) / 2;
 }
 
-// growth begins where q leaves (-1 / 2.98, 1)
 double diverges_from(const std::vector<double>& eigenvalues, double inertia, int passes) {
   double rho = 0;
   for (double step = 1e-3; step > 1e-8; step /= 10) {

@@ -1,4 +1,4 @@
-// In the loop over passes, with two old places and no vector of weights.
+// Computes the weights in the loop over passes, and stores the positions of the last two passes.
 #include "solvers.h"
 
 std::vector<double> weights(int passes, double rho) {
