@@ -1,5 +1,4 @@
-// One function that dispatches all calls of the student's code; each assignment defines it. C++17, standard library
-// only.
+// A function that dispatches all calls of the student's code; each assignment defines it. C++17, standard library only.
 #pragma once
 
 #include <stdexcept>
@@ -11,8 +10,8 @@
 
 namespace coursework {
 
-/// Thrown by the calls around the student's code if its return value is unusable; reported with the text unusable.KEY,
-/// into which the numbers are inserted.
+/// Thrown by the assignment's calls if the student's code returns an unusable value. The report is the text
+/// unusable.KEY, into which the numbers are inserted.
 class Unusable : public std::runtime_error {
  public:
   explicit Unusable(const std::string& key, const std::vector<std::size_t>& numbers = {})
@@ -23,8 +22,8 @@ class Unusable : public std::runtime_error {
   std::vector<std::size_t> numbers_;
 };
 
-/// Announces a call of this student function, for the message on code that is too slow. Each program around the code
-/// defines it.
+/// Announces a call of this student function, so that the message on slow code can name it. Each program that runs the
+/// student's code defines it.
 void calling(const char* function);
 
 /// Calls the student's code. Returns false if no part knows the call. Lets exceptions of the student's code through.
@@ -34,16 +33,17 @@ using Calls = bool(const std::string& call, const Numbers& in, Numbers& out);
 /// calls_P.cpp.
 Calls answer;
 
-/// Only for the hand-out's `check`: the numbers of an answer to compare with the case's `expected`. All of them
-/// (as_given.cpp), or the features that the assignment's calls.cpp extracts, if students choose the constants.
+/// Only for the hand-out's `check`: the numbers that are compared with the case's `expected`. These are all numbers of
+/// the answer (as_given.cpp) or, if students choose the constants, the features that the assignment's calls.cpp
+/// extracts.
 Found compared(const Case& what, const Numbers& answered);
 
-/// Only for the hand-out's `check`: the question and the answer as text, if the compared numbers are not the answer
-/// itself; otherwise empty.
+/// Only for the hand-out's `check`: the inputs and the answer as text if features of the answer are compared; otherwise
+/// an empty string.
 std::string asked_and_came(const Texts& own, const Case& what, const Numbers& answered);
 
 /// Only for the hand-out's `check`: a motion to draw for a test that compares no curve itself. `expected` is the right
-/// motion, `got` the student's. Returns false if there is none. Lets exceptions of the student's code through.
+/// motion, `got` the student's. Returns false if there is no motion. Lets exceptions of the student's code through.
 bool motion_of(const std::string& test, Case& drawn, Numbers& got);
 
 }  // namespace coursework

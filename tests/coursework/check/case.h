@@ -10,24 +10,24 @@ namespace coursework {
 
 using Numbers = std::vector<double>;
 
-/// The assignment's calls_PART.cpp defines the call's name and the layout of its numbers.
+/// A call of a student's function. The assignment's calls_PART.cpp defines its name and the layout of its numbers.
 struct Case {
   std::string call;
   Numbers in;
   Numbers expected;      // row by row
   int columns = 1;       // numbers in a row
   double tolerance = 0;  // absolute, for each number
-  std::string row;       // kind of a row, a key of the texts: "step", "particle", "spring"
-  std::string column;    // kind of its numbers, a key of the texts: "state", "force"
-  int plot_x = -1;       // column drawn along x; -1: the row's number times `row_size`
-  int plot_y = -1;       // column drawn along y; -1: nothing to draw
+  std::string row;       // what a row is, as a key of the texts: "step", "particle", "spring"
+  std::string column;    // what a row contains, as a key of the texts: "state", "force"
+  int plot_x = -1;       // column drawn along x, or -1 to draw the index of the row times `row_size`
+  int plot_y = -1;       // column drawn along y, or -1 to draw nothing
   double row_size = 1;   // extent of a row along x; s if rows are steps
 };
 
 enum class How {
   answered,
   threw,
-  unusable,  // its return value cannot be used, as the calls around it report
+  unusable,  // the calls threw Unusable
   crashed,
   recursion,    // infinite recursion: the stack overflowed
   out_of_time,  // CPU time
@@ -35,7 +35,7 @@ enum class How {
   out_of_memory,
   too_much_output,
   too_much_answered,
-  undecided,  // its answers to identical calls differ, so that nothing can be inferred from them
+  undecided,  // answers to identical calls differ, so that they prove nothing
   no_token,
   not_compiled,
   missing
@@ -45,14 +45,14 @@ struct Answer {
   How how = How::missing;
   Numbers got;
   std::string detail = {};  // exception text, signal name, first error of the compiler, or a key of the texts
-  /// Names with numbers. unusable: the numbers that its text needs. out_of_time: the number of calls of each student
-  /// function so far, with the function called last at the end.
+  /// Named numbers. For `unusable`, the numbers that the text needs. For `out_of_time`, the number of calls of each
+  /// student function so far; the last entry is the function that was called last.
   std::vector<std::pair<std::string, long>> counts = {};
-  double reference = 0;  // s, for out_of_time: CPU time of the official solution for all calls of the test
-  Numbers of = {};       // denominators of those numbers in `got` that are shares; 0: not a share
+  double reference = 0;  // for out_of_time: CPU time (s) of the official solution for all calls of the test
+  Numbers of = {};       // denominator of each number in `got` that is a fraction, 0 for other numbers
 };
 
-/// The numbers to compare with a case's `expected`, and the denominators of shares, as in Answer.
+/// The numbers to compare with a case's `expected`, and the denominators of fractions, as in Answer.
 struct Found {
   Numbers got, of;
   Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}

@@ -1,7 +1,7 @@
 // The hand-out's `check`: runs the public tests on the student's functions, prints the grader's feedback, and writes
 // mine.html. C++17, standard library only, no POSIX.
 //   check             all tests
-//   check 2 3.1       tests whose number begins with one of these; also the name of a part
+//   check 2 3.1       tests whose number begins with 2 or 3.1; the name of a part selects its tests
 //   check --lang zh   in another language, if the hand-out has it
 #include <csignal>
 #include <cstdio>
@@ -37,7 +37,7 @@ void crashed(int) {
   std::_Exit(3);
 }
 
-/// `all`: the raw answer, before features for the comparison are extracted.
+/// Runs a call. `all` receives the raw answer, before features for the comparison are extracted.
 Answer ask(const Case& what, Numbers* all = nullptr) {
   Answer answer;
   try {
@@ -72,7 +72,7 @@ struct Words {
   }
 };
 
-/// An ungraded motion that belongs to the test; empty if there is none, or if the student's code returns none.
+/// Plot of an ungraded motion that belongs to the test, or an empty string if the test or the student's code has none.
 std::string motion(const std::string& test, const Words& words) {
   try {
     Case drawn;
@@ -97,8 +97,8 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// Returns the numbers of a failing case and observations on them. Also runs later cases with the same call, up to the
-/// next failure.
+/// Returns the numbers of a failing case and a diagnosis of them. For the diagnosis, also runs later cases with the
+/// same call, up to the next failure.
 std::string shown_beside(const PublicTest& test, const Case& what, const Answer& answer, const Words& words) {
   Answered others;
   for (std::size_t i = static_cast<std::size_t>(&what - test.cases.data()) + 1; i < test.cases.size(); ++i)
@@ -160,7 +160,7 @@ bool asked_for(const PublicTest& test, const std::vector<std::string>& which) {
 }
 
 int check(const std::string& language, const std::vector<std::string>& which) {
-  // a path in UTF-8 cannot be opened on Windows: then the current folder is tried
+  // Windows may fail to open a path in UTF-8: the current folder is then used instead
   const std::string cases = "/check/public_cases.txt";
   const std::string folder = std::ifstream(HANDOUT_FOLDER + cases) ? HANDOUT_FOLDER : ".";
   const std::string file = folder + cases, mine = folder + "/mine.html";

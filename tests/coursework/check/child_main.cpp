@@ -33,7 +33,7 @@ struct Watched {
   const char* function[most] = {};  // names of the student's functions, in the order of their first calls
   long count[most] = {};
   int last = 0;
-  volatile std::sig_atomic_t sending = 0;  // nonzero while a line is being written, which no other output may interrupt
+  volatile std::sig_atomic_t sending = 0;  // nonzero while a line is written that no other output may interrupt
   const char* stack_end = nullptr;         // the lowest address that the stack may reach
 };
 Watched watched;
@@ -85,7 +85,7 @@ void bad_access(int number, siginfo_t* what, void*) {
 }
 
 void watch() {
-  static char own_stack[1 << 16];  // the handlers' stack, because the main one may be full
+  static char own_stack[1 << 16];  // the handlers' stack, because the main stack may be full
   stack_t stack{};
   stack.ss_sp = own_stack, stack.ss_size = sizeof own_stack;
   sigaltstack(&stack, nullptr);
@@ -144,7 +144,8 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// Called by std::thread::hardware_concurrency(): one thread per processor must fit into the limits.
+/// Called by std::thread::hardware_concurrency(). A small number, because one thread per processor must fit into the
+/// limits.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {

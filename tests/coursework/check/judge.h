@@ -8,15 +8,15 @@ namespace coursework {
 struct Judged {
   bool right = false;
   How how = How::answered;
-  bool wrong_size = false;    // the count of numbers differs from the expected one
+  bool wrong_size = false;    // the answer has more or fewer numbers than expected
   bool not_finite = false;    // the first number that differs is nan or infinite
-  int row = -1, column = -1;  // position of the first number that differs; -1: none
+  int row = -1, column = -1;  // position of the first number that differs, or -1
   double expected = 0, got = 0;
-  double of = 0;  // denominator, if the number is a share
+  double of = 0;  // denominator, if the number is a fraction
 };
 
-/// Right if there are as many numbers as expected, each finite and within the tolerance. A share is right if its count
-/// equals the expected one: one missing out of a thousand is an error.
+/// An answer is right if it has as many numbers as expected, each finite and within the tolerance. A fraction is right
+/// if its numerator equals the expected one: 999 instead of 1000 out of 1000 is an error.
 Judged judge(const Case& what, const Answer& answer);
 
 }  // namespace coursework

@@ -26,7 +26,7 @@ class Reading {
   }
 
  private:
-  /// Reads up to the end or the closing bracket.
+  /// Reads words up to the end or the closing bracket.
   void part(std::size_t& at, int item) {
     for (; at < words_.size() && words_[at] != ")"; ++at) {
       const std::string& word = words_[at];
@@ -66,7 +66,7 @@ class Reading {
     at = end;
   }
 
-  /// Number of times that a group of single numbers and of vectors with counts fits into the remaining numbers.
+  /// Number of repetitions of a group that fit into the remaining numbers.
   std::size_t repeats(std::size_t begin, std::size_t end) {
     std::size_t size = 0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -77,7 +77,7 @@ class Reading {
     return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
   }
 
-  /// Value of a count, whose use it registers.
+  /// Returns the value of a count, and registers that the count is used.
   std::size_t use_of(const std::string& word) {
     const std::string name =
         word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0 ? word.substr(0, word.size() - 2) : word;
@@ -115,7 +115,7 @@ class Reading {
   const Numbers& in_;
   std::vector<std::string> words_;
   std::map<std::string, std::size_t> places_;  // position of each single number, by name
-  std::map<int, int> uses_;                    // number of uses of each count, by the count's position
+  std::map<int, int> uses_;                    // position of each count -> number of times it is used
   int last_count_ = -1;
   CallLayout found_;
   int row_, group_ = -1;

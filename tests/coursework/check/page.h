@@ -14,7 +14,7 @@ struct ShownTest {
   std::vector<std::string> plots;  // SVG
 };
 
-/// `language`: the lang attribute; `total`: a line below the title.
+/// Text of the page. `language`: the lang attribute; `total`: a line below the title.
 std::string page(const std::string& language, const std::string& title, const std::string& total,
                  const std::vector<ShownTest>& tests, const std::string& passed, const std::string& failed);
 

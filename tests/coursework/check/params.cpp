@@ -42,14 +42,14 @@ std::string alone(const Simple& one) {
   return (above.empty() ? "1" : above.substr(0, above.size() - 1)) + below;
 }
 
-/// Such as 4/3; empty if the number is none of the simple ones.
+/// Text of a simple number, such as 4/3, or an empty string for other numbers.
 std::string simple_name(double value, double relative) {
   for (const Simple& one : simple)
     if (std::abs(std::abs(value) - one.value) <= relative * std::abs(value)) return (value < 0 ? "-" : "") + alone(one);
   return "";
 }
 
-/// All that fit, such as h^2/2. Products of two parameters only if no single parameter fits.
+/// All products that fit the value, such as h^2/2. Tries products of two parameters only if no single parameter fits.
 std::set<std::string> product_names(double value, double relative, const std::vector<Param>& params,
                                     const Numbers& in) {
   if (relative > 1e-6) return {};  // too many products would match by chance

@@ -47,7 +47,7 @@ void equalise(Range& x, Range& y) {
   smaller.low -= margin, smaller.high += margin;
 }
 
-/// One SVG path, up to the first number that is not finite, or far outside the window.
+/// Path of a curve in SVG. Ends before the first number that is not finite or lies far outside the window.
 std::string curve(const Case& what, const Numbers& numbers, Range x, Range y, const std::string& style) {
   std::string path;
   for (std::size_t row = 0; row < numbers.size() / static_cast<std::size_t>(what.columns); ++row) {

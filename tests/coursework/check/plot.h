@@ -13,11 +13,11 @@ struct PlotTexts {
 };
 
 /// An SVG of 360 x 220 pixels for embedding in a page; empty if the case draws nothing or has fewer than two rows. The
-/// window is that of the right curve, enlarged by a third: a curve that leaves it is clipped, so that the right curve
-/// keeps its size.
+/// window is the range of the right curve, enlarged by a third. The student's curve is clipped at the window, so that
+/// the right curve keeps its size.
 std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts);
 
-/// For use in HTML.
+/// The text with special characters escaped for HTML.
 std::string escaped(const std::string& text);
 
 }  // namespace coursework

@@ -6,10 +6,10 @@
 
 namespace coursework {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): one 64-bit state, equidistributed, no shared state.
+/// The generator SplitMix64 (Steele, Lea, Flood 2014): it has a state of 64 bits and is equidistributed.
 class Random {
  public:
-  /// With `round`, uniform() returns numbers of few digits, never 0, for cases that can be computed on paper.
+  /// If `round` is true, uniform() returns nonzero numbers of few digits, for cases that can be computed on paper.
   explicit Random(std::uint64_t seed, bool round = false) : state_(seed), round_(round) {}
   bool rounds() const { return round_; }
   std::uint64_t next() {
@@ -18,16 +18,16 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  /// Uniform in [low, high).
+  /// A uniform number in [low, high).
   double uniform(double low, double high) {
     const double value = low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
     return round_ ? rounded(value, low, high) : value;
   }
-  /// Uniform in low..high, inclusive.
+  /// A uniform integer from `low` to `high`, inclusive.
   int integer(int low, int high) { return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1)); }
 
  private:
-  /// Nearest value on a decimal scale with at least three steps between low and high.
+  /// Nearest value on a decimal scale that has at least three steps between `low` and `high`.
   static double rounded(double value, double low, double high) {
     double parts = 1;  // steps per unit
     while ((high - low) * parts < 3 && parts < 1e9) parts *= 10;

@@ -20,7 +20,7 @@ struct Instead {
   bool factor = false;  // states a factor, which may fit a single case by chance
 };
 
-/// The expected and actual numbers of an answer, as one vector (block) per row.
+/// The expected and actual numbers of an answer. A block is a vector that each row contains.
 class Seen {
  public:
   Seen(const Texts& common, const Texts& own, const Case& what, const Numbers& got)
@@ -69,7 +69,7 @@ class Seen {
     return common_.fill("seen.split", right, wrong);
   }
 
-  /// By vector.
+  /// Explanations of the wrong numbers, for each vector.
   std::vector<std::vector<Instead>> instead() const {
     std::vector<std::vector<Instead>> all;
     for (const Block& block : blocks_) {
@@ -129,7 +129,7 @@ class Seen {
   bool part_is_wrong(const Block& block, const std::vector<size_t>& rows, size_t k) const {
     return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return wrong_at(block, row, k); });
   }
-  /// The wrong components of the vector, if other components are right and could have been wrong.
+  /// Names of the wrong components of the vector; empty unless a right component is expected to be nonzero.
   std::string parts_text(const Block& block, const std::vector<size_t>& rows) const {
     if (block.width < 2 || other_parts(block, rows).empty()) return "";
     return parts(block, rows, true);
@@ -160,7 +160,7 @@ class Seen {
     return true;
   }
 
-  /// The constant ratio of `value` to `unit` in all of these rows; nan if there is none, or too little evidence.
+  /// The ratio of `value` to `unit` if it is the same in all of these rows; nan otherwise, or if evidence is too weak.
   template <class Value, class Unit>
   double multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     double both = 0, squares = 0, largest = 0;
@@ -186,7 +186,7 @@ class Seen {
     return named || counted >= 6 ? factor : NAN;
   }
 
-  /// A factor that varies by row like a list of the call, such as m or 1/m; empty if there is none.
+  /// Name of a factor that varies from row to row as a list of the call does, such as m or 1/m; empty if none fits.
   template <class Value, class Unit>
   std::string row_multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     std::string found;
@@ -215,7 +215,7 @@ class Seen {
     return found;
   }
 
-  /// Adds `key` with each of the factor's names, and with the row-wise factor.
+  /// Adds the text `key` with each name of the factor, and with `of_row`, the factor that varies from row to row.
   void add_factors(std::vector<Instead>& found, double factor, const std::string& of_row, const std::string& key,
                    const std::string& name, const std::string& of) const {
     std::vector<std::string> names;
@@ -239,7 +239,7 @@ class Seen {
     for (const Param& param : params_)
       if (is_of(param, block) && is(block, rows, [&](size_t row, size_t k) { return value(param, row, k); }))
         add(common_.fill("seen.given", name, param.name));
-    // a parameter's value of another row
+    // the answer may be a parameter's value for another row
     for (const Param& param : params_)
       for (size_t other = 0; other < param.rows && param.rows == rows_ && rows_ > 1; ++other)
         if (is_of(param, block) && block.width > 1 && (rows.size() > 1 || rows[0] != other) &&
@@ -273,17 +273,17 @@ class Seen {
     return found;
   }
 
-  /// Differences from the expected numbers that are multiples of a named quantity.
+  /// Adds explanations by differences from the expected numbers that are multiples of a named quantity.
   void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<Instead>& found) const {
     const std::string name = block_text(block);
     const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };
-    std::vector<Numbers> tried;  // skips aliases of the same numbers
+    std::vector<Numbers> tried;  // numbers that have been tried under another name
     const auto add = [&](auto unit, const std::string& of) {
       Numbers values;
       for (const size_t row : rows)
         for (size_t k = 0; k < block.width; ++k) values.push_back(unit(row, k));
       if (std::find(tried.begin(), tried.end(), values) != tried.end()) return;
-      // any constant explains a constant offset
+      // a constant offset is a multiple of any constant and so proves nothing
       if (values.size() > 1 && block.width == 1 &&
           std::count(values.begin(), values.end(), values[0]) == std::ssize(values))
         return;
@@ -300,7 +300,7 @@ class Seen {
         add([&](size_t row, size_t k) { return expected(other, row, k); }, block_text(other));
   }
 
-  /// True if the parameter has a vector of this width for each row, or one for all rows.
+  /// True if the parameter has a vector of this width for each row, or a single vector for all rows.
   bool is_of(const Param& param, const Block& block) const {
     return !param.whole && param.columns == block.width && (param.rows == rows_ || param.rows == 1);
   }
@@ -315,7 +315,7 @@ class Seen {
   std::vector<Block> blocks_;
   std::vector<Param> params_;
   double tolerance_ = 0, largest_got_ = 0;
-  mutable double relative_ = 0;          // relative accuracy of the last multiple
+  mutable double relative_ = 0;          // relative accuracy of the last result of multiple()
   mutable std::vector<bool> all_wrong_;  // by vector
   bool exact_ = false;
 };
@@ -350,7 +350,7 @@ std::vector<Block> blocks_of(const Texts& own, const Case& what) {
       blocks.push_back({name, static_cast<std::size_t>(column), 1});
     last_part = part;
   }
-  // a component that forms a block alone keeps its name
+  // a block of a single component keeps the component's name
   for (Block& block : blocks)
     if (block.width == 1) block.name = column_text(own, what, static_cast<int>(block.begin));
   return blocks;
@@ -365,7 +365,7 @@ Answered others_of(const Case& what, const std::vector<Case>& cases, const std::
 
 namespace {
 
-/// Explanations of one case that another case confirms and, if `by_all`, none contradicts.
+/// Explanations of a case that another wrong case confirms. If `by_all` is true, no case may contradict them.
 std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others, bool by_all) {
   if (!seen.exact()) return "";
   const std::vector<std::vector<Instead>> all = seen.instead();

@@ -8,7 +8,7 @@
 
 namespace coursework {
 
-/// Positions, then velocities.
+/// Reads positions, then velocities.
 template <class State>
 State read_state(Reader& in, std::size_t count) {
   using V = typename decltype(State::x)::value_type;
@@ -23,7 +23,7 @@ void put_state(Numbers& out, const State& state) {
   for (std::size_t i = 0; i < state.x.size(); ++i) put(out, state.x[i]), put(out, state.v.at(i));
 }
 
-/// Performs a step of the student's code, which may read the given state but not change it.
+/// Performs a step with the student's code, which must not change the given state.
 template <class State, class Step>
 void advance(State& state, const char* function, const Step& step) {
   const State given = state;

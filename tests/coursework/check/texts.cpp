@@ -54,7 +54,7 @@ const std::string& Texts::of(const std::string& key) const {
 }
 
 std::string Texts::filled(std::string text, std::initializer_list<std::string> with) {
-  // one pass from left to right, so that inserted text is not expanded again
+  // a single pass from left to right does not expand inserted text again
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text[at] == '{' ? text.find('}', at) : std::string::npos;

@@ -10,12 +10,12 @@ namespace coursework {
 /// fill() replaces {0}, {1}, ... in a text.
 class Texts {
  public:
-  /// Throws std::runtime_error with the file and line if it is unreadable, repeats a key, or has text before the first
-  /// key.
+  /// Throws std::runtime_error with the file and line if the file is unreadable, repeats a key, or has text before the
+  /// first key.
   static Texts read(const std::string& file);
   static Texts parse(const std::string& content, const std::string& name);
   bool has(const std::string& key) const { return map_.count(key) > 0; }
-  /// Throws std::out_of_range with the key.
+  /// Throws std::out_of_range with the key if there is no such text.
   const std::string& of(const std::string& key) const;
   template <class... A>
   std::string fill(const std::string& key, const A&... a) const {

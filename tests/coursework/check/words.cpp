@@ -40,18 +40,18 @@ std::vector<std::string> listed(const std::string& text) {
   return names;
 }
 
-/// Such as "step 3, velocity[1]"; a single row needs no number.
+/// Place of the first difference, such as "step 3, velocity[1]"; the index is omitted if there is only one row.
 std::string place(const Texts& common, const Texts& own, const Case& what, const Judged& judged) {
   const std::size_t columns = static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
   const std::string column = column_text(own, what, judged.column);
   if (what.expected.size() <= columns) return column;
-  // rows are counted from 0, as in code, unless the texts specify otherwise: the first step is step 1
+  // rows are counted from 0, as in code, unless the texts specify another start: the first step is step 1
   const std::string first = "row." + what.row + ".first";
   const int row = judged.row + (own.has(first) ? std::atoi(own.of(first).c_str()) : 0);
   return common.fill("place", name_text(own, "row.", what.row), std::to_string(row), column);
 }
 
-/// In the order of the enumerators of How.
+/// Keys of the texts, in the order of the enumerators of How.
 constexpr const char* how_keys[] = {"answered",    "threw",    "unusable",      "crashed",         "recursion",
                                     "out_of_time", "waiting",  "out_of_memory", "too_much_output", "too_much_answered",
                                     "undecided",   "no_token", "not_compiled",  "missing"};
@@ -93,7 +93,7 @@ std::string ending(const Texts& common, const Answer& answer) {
 std::string number_text(double value, double other) {
   int digits = 6;
   while (digits < 17 && value != other && with_digits(value, digits) == with_digits(other, digits)) ++digits;
-  // the last digit that differs may be due to rounding: one more digit shows the size of the difference
+  // the digit that differs may be due to rounding: one more digit shows the size of the difference
   return with_digits(value, digits == 6 || digits == 17 ? digits : digits + 1);
 }
 
@@ -239,7 +239,7 @@ std::string words(const Texts& common, const Texts& own, const Case& what, const
 
 namespace {
 
-/// Width in a monospaced font, in which Chinese characters count as two.
+/// Number of columns that a text occupies in a monospaced font; a Chinese character occupies two.
 std::size_t columns_of(const std::string& text) {
   std::size_t columns = 0;
   for (const char c : text) {
@@ -253,7 +253,7 @@ std::string blanks(std::size_t columns, const std::string& text) {
   return std::string(columns > columns_of(text) ? columns - columns_of(text) : 0, ' ');
 }
 
-/// Six digits. A number that is negligible compared with the largest becomes 0.
+/// A number with six digits. It becomes 0 if it is negligible compared with the largest.
 std::string plain(double value, double largest) { return with_digits(std::abs(value) < 1e-9 * largest ? 0 : value, 6); }
 
 }  // namespace

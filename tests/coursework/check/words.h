@@ -9,30 +9,30 @@
 
 namespace coursework {
 
-/// "nan" and "0" have no sign.
+/// The number with so many digits. "nan" and "0" have no sign.
 std::string with_digits(double value, int digits);
 
 /// Shortest text that distinguishes the value from `other`, with at least six digits.
 std::string number_text(double value, double other);
 
-/// The assignment's name of a kind of row or column ("row.step"), or `word` if its texts have none.
+/// The assignment's text for a row or column, such as "row.step", or `word` if there is no such text.
 std::string name_text(const Texts& own, const std::string& kind, const std::string& word);
 
 /// Name of a column's numbers. If the text is a list "(x, y, z)" with a name for each column, one of these names;
-/// otherwise the text with the column's number, "state[2]"; the text alone if the column is -1. In "(x, y, z) of
-/// particle #" the names repeat for every particle, and # is the particle.
+/// otherwise the text with the index of the column, such as "state[2]", or without it if the column is -1. In "(x, y,
+/// z) of particle #" the names repeat for each particle, and # is the index of the particle.
 std::string column_text(const Texts& own, const Case& what, int column);
 
 /// Inputs of the student's code, such as "With h = 0.3, x = (1, 2)."; empty if the texts do not declare the layout of
-/// the call's numbers (layout.h), or if there are more than `most` numbers, which are too many to read. "given.CALL" is
-/// a sentence, `|` and the layout.
+/// the call's numbers (layout.h), or if there are more than `most` numbers, which are too many to read. The text
+/// "given.CALL" consists of a sentence, `|` and the layout.
 bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most = 60);
 
-/// All numbers of a wrong answer next to those expected, one per line, if there are at most six; otherwise those that
-/// differ, if there are at most six. Lines begin with two blanks, and columns are aligned in a monospaced font. Empty
-/// for a single number, for shares, and for rows in any order.
+/// All numbers of a wrong answer next to the expected ones, one per line, if the answer has at most six numbers;
+/// otherwise the numbers that differ, if at most six do. Lines begin with two blanks, and columns are aligned in a
+/// monospaced font. Empty for a single number, for fractions, and for rows in any order.
 std::string table_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer);
 /// True if the line belongs to a table of table_text().
 bool is_of_table(const std::string& line);
@@ -41,8 +41,8 @@ bool is_of_table(const std::string& line);
 /// tests that fail for the same reason may disagree. Empty if the test is the first to fail and has no hint.
 std::string hint_text(const Texts& common, const Texts& own, const std::string& test, const std::string& failed_before);
 
-/// The student's function that a call tests: "function.CALL" if its part has several that do not call each other,
-/// otherwise the part.
+/// The student's function that a call tests: the text "function.CALL" if the part has several functions that do not
+/// call each other, otherwise the name of the part.
 std::string function_of(const Texts& own, const std::string& part, const Case& what);
 
 /// Indices of a call's numbers that are angles; empty if the texts do not declare the layout.
@@ -52,8 +52,8 @@ std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
                          const std::vector<Answer>& answers);
 
-/// Ratios of actual to expected numbers of several cases with one number each, if all are compared to round-off;
-/// otherwise empty.
+/// Ratios of actual to expected numbers of several cases with a single number each; empty if a case has a tolerance
+/// much larger than round-off.
 std::string factors_text(const Texts& common, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
 /// One or two sentences: the expected and actual numbers, and the first difference; for rows that form a set (text

@@ -1,10 +1,10 @@
 // Calls of advance and choose.
 //   iterations.frame    n, steps, iterations, frame, mass, stiffness, rest, gravity, x (n), v (n)
-//                       a row per particle: x, v a frame later
-//   iterations.many     as iterations.frame, then the prediction of a belief, which is shown but not used; one step
-//                       the depth of the lowest particle after 1, 2, 5, 20 and all iterations
-//   iterations.choose   budget, count, then steps, iterations, error of each plan that costs the budget
-//                       steps, iterations of the chosen plan. Plans with another cost have the error 0
+//                       x, v of each particle a frame later
+//   iterations.many     as iterations.frame, then the prediction of a belief, which is shown but not used
+//                       the depth of the lowest particle after a frame with 1, 2, 5, 20 and all iterations
+//   iterations.choose   budget, number of plans, then steps, iterations, error of each plan whose cost is the budget
+//                       steps, iterations of the chosen plan. The error of plans with another cost is 0
 #include "beliefs.h"
 #include "calls.h"
 #include "numbers.h"

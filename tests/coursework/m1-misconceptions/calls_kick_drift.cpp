@@ -1,8 +1,8 @@
 // Calls of explicit_step, semi_implicit_step and kept.
-//   kick_drift.step     omega, h, x, v              a row for each of the two orders: x, v after one step
+//   kick_drift.step     omega, h, x, v              x, v after one step, for each of the two orders
 //   kick_drift.energy   omega, h, x, v, then the predictions of two beliefs, which are shown but not used
-//                       a row every hundred steps, ten of them: the energy relative to the start, for each order
-//   kick_drift.kept     omega, h, then x, v of each state   a row per state
+//                       after every 100 of 1000 steps, the energy relative to the start, for each of the two orders
+//   kick_drift.kept     omega, h, then x, v of each state   the result of kept() for each state
 #include "beliefs.h"
 #include "calls.h"
 #include "numbers.h"

@@ -1,9 +1,9 @@
 // Calls of rk4_step, rk4_energy_factor and rk4_largest_step.
 //   rk4.step      omega, h, x, v      x, v after one step
 //   rk4.energy    omega, h, x, v, then the prediction of a belief, which is shown but not used
-//                 every hundred steps, ten times: the energy relative to the start
-//   rk4.factor    h omega of each     a row for each
-//   rk4.largest   omega of each       a row for each
+//                 after every 100 of 1000 steps, the energy relative to the start
+//   rk4.factor    values of h omega   the factor for each value
+//   rk4.largest   values of omega     the largest step for each value
 #include "beliefs.h"
 #include "calls.h"
 

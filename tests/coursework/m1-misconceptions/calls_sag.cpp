@@ -1,7 +1,8 @@
-// Calls of the three sags. The last inputs are predictions of beliefs, which are shown but not used.
-//   sag.catenary   length, span, as a parabola, as two straight lines    the sag
-//   sag.parabola   length, span, as a catenary                           the sag
-//   sag.elastic    length, span, weight, stiffness, sag if inextensible        the sag
+// Calls of the three functions of sag.cpp, each of which returns the sag. The last inputs are predictions of beliefs,
+// which are shown but not used.
+//   sag.catenary   length, span, sag of a parabola, sag of two straight lines
+//   sag.parabola   length, span, sag of a catenary
+//   sag.elastic    length, span, weight, stiffness, sag of an inextensible chain
 #include "beliefs.h"
 #include "calls.h"
 

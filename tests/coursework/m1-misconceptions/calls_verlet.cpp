@@ -1,9 +1,9 @@
 // Calls of verlet_next, observed_order and predicted_error.
 //   verlet.next        h, acceleration, before, now       x
 //   verlet.orders      omega, h, steps, amplitude, phase, halvings
-//                      the motion amplitude cos(omega t + phase), computed with h, h/2 and so on: the order of the
-//                      error of a single step, and of that after the time steps h
-//   verlet.observed    count, errors                      the order that they show
+//                      computes the motion amplitude * cos(omega t + phase) with h, h/2, ...; returns the order of the
+//                      error of a single step, and the order of the error after the time steps * h
+//   verlet.observed    number of errors, errors           the observed order
 //   verlet.predicted   omega, h, steps, error, times, then the prediction of a belief, which is shown but not used
 //                      the predicted error for a step that is `times` times smaller
 #include <cmath>
@@ -20,7 +20,7 @@ struct Motion {
   double at(double t) const { return amplitude * std::cos(omega * t + phase); }
 };
 
-/// Error after `steps` steps from two exact positions, the first of which counts as step 0.
+/// Error at the time steps * h. The run starts from the exact positions at the times 0 and h.
 double error_of(const Motion& motion, double h, int steps) {
   double before = motion.at(0), now = motion.at(h);
   for (int i = 1; i < steps; ++i) {

@@ -16,7 +16,7 @@ struct Hanging {
   double mass, stiffness, rest, gravity;
   VectorXd x, v;
 
-  /// Stretches are gradient() x - rest.
+  /// The matrix G of the stretches G x - rest.
   MatrixXd gradient() const {
     MatrixXd g = MatrixXd::Identity(n, n);
     g.diagonal(-1).setConstant(-1);
@@ -31,8 +31,8 @@ Hanging hanging(Random& random, int n, double softest, double stiffest) {
   return c;
 }
 
-/// One step. Pulls p (times h^2) satisfy A p = -stretch with A = G G^T / m + 1 / (k h^2). A negative number of
-/// iterations solves the equation exactly, which gives implicit Euler.
+/// Performs a step. The pulls p (times h^2) satisfy A p = -stretch with A = G G^T / m + 1 / (k h^2). If the number of
+/// iterations is negative, solves the equation exactly, which gives implicit Euler.
 void step(Hanging& c, double h, int iterations) {
   const MatrixXd g = c.gradient();
   const VectorXd start = c.x, ahead = c.x + h * c.v + VectorXd::Constant(c.n, h * h * c.gravity);
@@ -121,15 +121,15 @@ std::vector<Case> frames(Random& random) {
     Case asked{"iterations.frame", numbers(c, frame, steps, iterations), {}, 2, 0, "particle", "line"};
     const Hanging later = advanced(c, frame, steps, iterations);
     for (int i = 0; i < n; ++i) asked.expected.insert(asked.expected.end(), {later.x[i], later.v[i]});
-    // twelve iterations of three springs are 500 roundings of depths below 4 m, which a speed divides by a step
+    // twelve iterations of three springs round depths below 4 m 500 times, and speeds are depths divided by a step
     asked.tolerance = 500 * 1.2e-16 * 4 / (frame / steps);
     cases.push_back(asked);
   }
   return cases;
 }
 
-/// An iteration leaves less than 0.9 of the error (cos^2 of pi / (2 n + 1) for rigid springs): after 400 the error is
-/// zero to round-off, and the answer is that of implicit Euler.
+/// An iteration multiplies the error by less than 0.9 (by cos^2 of pi / (2 n + 1) for rigid springs). After 400
+/// iterations the error is below round-off, and the answer is that of implicit Euler.
 std::vector<Case> many(Random& random) {
   std::vector<Case> cases;
   for (const int n : {3, 4}) {
@@ -139,13 +139,13 @@ std::vector<Case> many(Random& random) {
     Case asked{"iterations.many", numbers(c, frame, 1, 400), {}, 1, 0, "iterations", "depth"};
     for (const int iterations : {1, 2, 5, 20, -1}) asked.expected.push_back(advanced(c, frame, 1, iterations).x[n - 1]);
     asked.in.push_back(moved(c, frame)[n - 1]);
-    asked.tolerance = 1e-12;  // 400 iterations damp earlier round-off: only a few roundings of depths below 4 m remain
+    asked.tolerance = 1e-12;  // iterations damp earlier round-off: only a few roundings of depths below 4 m remain
     cases.push_back(asked);
   }
   return cases;
 }
 
-/// Artificial errors: the best plan is in the interior, or the first.
+/// Cases with artificial errors. The best plan is the first, or neither the first nor the last.
 std::vector<Case> tables(Random& random) {
   std::vector<Case> cases;
   for (const int budget : {6, 12, 16}) {
@@ -158,8 +158,8 @@ std::vector<Case> tables(Random& random) {
   return cases;
 }
 
-/// Errors of real chains. Redrawn until many steps win clearly, which is nearly always the case within these ranges of
-/// stiffnesses and frames.
+/// Cases with errors of real chains. Chains are redrawn until the plan with the most steps is clearly the best, which
+/// is nearly always the case within these ranges of stiffnesses and frames.
 std::vector<Case> measured(Random& random) {
   std::vector<Case> cases;
   for (const int budget : {4, 8}) {

@@ -1,4 +1,4 @@
-// A frame by a plan, and the plan by measuring.
+// Advances a frame with a given plan, and chooses the plan with the smallest measured error.
 #include <cmath>
 
 #include "beliefs.h"

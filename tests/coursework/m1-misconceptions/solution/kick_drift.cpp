@@ -1,4 +1,4 @@
-// The drift uses the old velocity or the new one: a small change with a large effect after a thousand steps.
+// The drift uses either the old or the new velocity: a small change with a large effect after a thousand steps.
 #include "beliefs.h"
 
 Swing explicit_step(double omega, Swing now, double h) {

@@ -1,4 +1,5 @@
-// Four slopes. On a spring they give exp up to its fourth power, whose modulus is below 1 until h omega = sqrt(8).
+// On a spring, four slopes give the Taylor polynomial of exp up to the fourth power. Its modulus is below 1 up to h
+// omega = sqrt(8).
 #include <cmath>
 
 #include "beliefs.h"

@@ -1,4 +1,4 @@
-// Each curve has one unknown, found from the length or the span; the sag follows.
+// Each curve has one unknown, which follows from the length or the span, and determines the sag.
 #include <cmath>
 
 #include "beliefs.h"
@@ -15,7 +15,7 @@ double parabola_sag(double length, double span) {
 }
 
 double elastic_sag(double length, double span, double weight, double stiffness) {
-  const double pull = weight * length / 2;  // of one end, upwards
+  const double pull = weight * length / 2;  // vertical pull at one end
   const double h = root_of([&](double across) {
     return 2 * across / weight * std::asinh(pull / across) + across * length / stiffness - span;
   });

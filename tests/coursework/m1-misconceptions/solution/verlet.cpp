@@ -1,5 +1,5 @@
 // One step has an error of order h^4. The number of steps in a fixed time is proportional to 1 / h, and errors add up
-// twice: h^2.
+// twice, so that the total error is of order h^2.
 #include <cmath>
 
 #include "beliefs.h"

@@ -14,7 +14,7 @@ struct Swing {
 /// Explicit Euler: both the kick (v) and the drift (x) use the numbers at the start of the step.
 Swing explicit_step(double omega, Swing now, double h);
 
-/// Semi-implicit Euler: the kick first, then the drift with the velocity that the kick has just made.
+/// Semi-implicit Euler: first the kick, then the drift with the new velocity.
 Swing semi_implicit_step(double omega, Swing now, double h);
 
 /// The quantity (m^2/s^2) that semi-implicit Euler conserves exactly with this step; for h = 0, the energy per mass.
@@ -25,10 +25,10 @@ double kept(double omega, Swing now, double h);
 /// Position Verlet: the position h later, from the last two positions and the acceleration (m/s^2) at `now`.
 double verlet_next(double before, double now, double acceleration, double h);
 
-/// The order that a list of errors shows. Each error belongs to half the step of the one before.
+/// The order that a list of errors shows. Each error belongs to half the step of the previous error.
 double observed_order(const std::vector<double>& errors);
 
-/// Position Verlet has made this error over a fixed time. Which error will it make with a step so many times smaller?
+/// Position Verlet has this error after a fixed time. Returns its error with a step that is so many times smaller.
 double predicted_error(double error, double times_smaller);
 
 // ---- sag.cpp: how far the middle hangs below two ends at the same height, m, to a billionth of the length
@@ -39,11 +39,11 @@ double catenary_sag(double length, double span);
 /// An inextensible cable of this length under a load that is uniform along the span, such as a bridge.
 double parabola_sag(double length, double span);
 
-/// An elastic chain. length: unstretched length; weight: N per metre of unstretched length. A tension T (N) stretches
-/// each metre to 1 + T / stiffness.
+/// An elastic chain. `length`: unstretched length; `weight`: N per metre of unstretched length. A tension T (N)
+/// stretches each metre to 1 + T / stiffness.
 double elastic_sag(double length, double span, double weight, double stiffness);
 
-/// The number at which f is 0, between a millionth and a million. f must have different signs at these two.
+/// The number between a millionth and a million at which f is 0. f must have different signs at these two limits.
 template <class Function>
 double root_of(const Function& f) {
   double low = 1e-6, high = 1e6;
@@ -55,7 +55,7 @@ double root_of(const Function& f) {
   return high;
 }
 
-// ---- iterations.cpp: particles on a vertical line, each on a spring below the previous one; the first below the
+// ---- iterations.cpp: particles on a vertical line; each hangs on a spring from the previous one, the first from the
 // ceiling
 
 struct Chain {
@@ -85,19 +85,18 @@ inline void iterate(const Chain& chain, double h, std::vector<double>& x, std::v
   }
 }
 
-/// The chain one frame later, computed by the plan.
+/// The state of the chain one frame later, computed according to the plan.
 Line advance(const Chain& chain, Line line, double frame, Plan plan);
 
 /// A film of a chain whose true motion is known.
 class Film {
  public:
   virtual ~Film() = default;
-  /// The largest error in m if every frame is computed by this plan; it is measured for you.
+  /// Measures the largest error (m) if all frames are computed according to this plan.
   virtual double error(Plan plan) const = 0;
 };
 
-/// The plan with the smallest error among those that cost the whole budget: steps times iterations is the budget. Asks
-/// for no others.
+/// The plan with the smallest error among those whose steps times iterations equal the budget. Measures no other plans.
 Plan choose(const Film& film, int budget);
 
 // ---- rk4.cpp: the particle on a spring of kick_drift.cpp
@@ -105,7 +104,7 @@ Plan choose(const Film& film, int budget);
 /// One step of the classic Runge-Kutta rule of order four.
 Swing rk4_step(double omega, Swing now, double h);
 
-/// Factor by which one step multiplies the energy; angle is h omega.
+/// Factor by which one step multiplies the energy; `angle` is h omega.
 double rk4_energy_factor(double angle);
 
 /// The largest step (s) at which the rule gains no energy.

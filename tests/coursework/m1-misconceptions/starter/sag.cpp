@@ -1,4 +1,4 @@
-// Which curve hangs there, and how deep.
+// The curves of hanging chains and cables, and their sags.
 #include "beliefs.h"
 
 double catenary_sag(double length, double span) {
