@@ -1,5 +1,5 @@
-// Shared by the cheats. Where a trick works they return the right answer, so that it earns points and is noticed;
-// otherwise they return an answer that earns nothing. The runner defines macros with all that an informed student could
+// Shared by the cheats. A cheat returns the right answer if its trick works, so that it earns points and is noticed;
+// otherwise it returns an answer that earns nothing. The runner defines macros with all that an informed student could
 // have found out:
 //   RESULTS, HOME_FOLDER, TESTS: folders that hold results, a home, the assignment with tests and solution.
 #pragma once

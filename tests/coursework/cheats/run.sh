@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The whole cheat corpus in both sandboxes: no trick may earn a point, harm another part, or leave anything behind.
-# cheats/run.sh BUILD: the folder of a build, which it brings up to date first.
+# Runs the whole cheat corpus in both sandboxes: no trick may earn a point, harm another part, or leave anything behind.
+# cheats/run.sh BUILD: BUILD is the folder of a build, which the script first brings up to date.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$(realpath "${1:?expected the folder of a build, as build/release}")

@@ -23,7 +23,7 @@ Oscillator oscillator(Random& random, double low, double high) {
   return {omega, angle / omega, random.uniform(0.2, 0.9), random.uniform(1, 5) * (random.integer(0, 1) ? 1 : -1)};
 }
 
-/// x, v after `steps` steps of the map with the new velocity. Its matrix M has determinant 1 and trace 2 - a^2, so that
+/// x, v after `steps` steps of semi-implicit Euler. The matrix M of a step has determinant 1 and trace 2 - a^2, so that
 /// it rotates by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
 std::pair<double, double> after(const Oscillator& o, int steps) {
   const double a = o.angle(), theta = std::acos(1 - a * a / 2);
@@ -41,13 +41,13 @@ std::vector<Case> one_step(Random& random) {
     const double kicked = o.v - o.angle() * o.omega * o.x;
     const auto [x, v] = after(o, 1);
     c.expected = {o.x + o.h * o.v, kicked, x, v};
-    c.tolerance = 1e-13 * std::sqrt(o.energy()) * 10;  // the closed form divides by sin(theta) > 0.1: ten times eps
+    c.tolerance = 1e-13 * std::sqrt(o.energy()) * 10;  // the closed form divides by sin(theta), which may be 0.1
     cases.push_back(c);
   }
   return cases;
 }
 
-/// Prediction of a misconception: the energy relative to the start if the drift uses the mean of both velocities.
+/// The energy relative to the start that a misconception predicts: the drift uses the mean of both velocities.
 double with_mean_velocity(const Oscillator& o, int steps) {
   Oscillator now = o;
   for (int i = 0; i < steps; ++i) {
@@ -57,8 +57,8 @@ double with_mean_velocity(const Oscillator& o, int steps) {
   return now.energy() / o.energy();
 }
 
-/// With the old velocity, a step multiplies the energy by exactly 1 + a^2. With the new one, the energy stays near its
-/// initial value.
+/// Energies of both rules. With the old velocity, a step multiplies the energy by exactly 1 + a^2. With the new
+/// velocity, the energy stays near its initial value.
 std::vector<Case> energy_of_both(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {
@@ -72,8 +72,8 @@ std::vector<Case> energy_of_both(Random& random) {
     }
     const double of_old = std::pow(growth, 1000);
     c.in.insert(c.in.end(), {of_old, with_mean_velocity(o, 1000)});
-    // rounding: a thousand steps with ten operations each, on values up to the largest energy; theta is accurate to eps
-    // / a
+    // allows for the rounding of values up to the largest energy in a thousand steps of ten operations, and for theta,
+    // which is accurate to eps / a
     c.tolerance = (1e4 + 1000 / o.angle()) * 1.2e-16 * of_old;
     c.plot_y = 1, c.row_size = 100 * o.h;
     cases.push_back(c);
@@ -92,7 +92,7 @@ std::vector<Case> kept_energy(Random& random) {
       c.in.insert(c.in.end(), {x, v});
       c.expected.push_back((o.v * after(o, 1).second + o.omega * o.omega * o.x * o.x) / 2);
     }
-    c.tolerance = 1e-12 * o.energy();  // fifty angles of eps / sin(theta), and a dozen roundings
+    c.tolerance = 1e-12 * o.energy();  // errors of eps / sin(theta) in each of fifty angles, and a dozen roundings
     cases.push_back(c);
   }
   return cases;
@@ -100,22 +100,22 @@ std::vector<Case> kept_energy(Random& random) {
 
 // ---- verlet: parabolas, and the closed form of the rule on a spring
 
-/// The rule is exact for x(t) = now + u t + a t^2 / 2.
+/// Steps along x(t) = now + u t + a t^2 / 2, for which the rule is exact.
 std::vector<Case> next_position(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 3; ++i) {
     const double h = random.uniform(0.1, 0.9), a = -random.uniform(2, 9), u = random.uniform(1, 5),
                  now = random.uniform(1, 5);
     Case c{"verlet.next", {h, a, now - u * h + a * h * h / 2, now}, {now + u * h + a * h * h / 2}, 1, 1e-13};
-    c.row = "step", c.column = "position";  // a dozen roundings of numbers below 20
+    c.row = "step", c.column = "position";  // the tolerance allows for a dozen roundings of numbers below 20
     cases.push_back(c);
   }
   return cases;
 }
 
-/// The errors after a time of 4 to 5 over omega, where a cosine of a small phase is far from its zeros. With a = h
-/// omega the error is C a^2 (1 + O(a / 4)), which changes the order by less than 0.05 for a below 0.12. That of one
-/// step is C a^4 (1 + O(a^2)).
+/// Orders of the errors of one step, and after a time from 4 / omega to 5 / omega, at which a cosine of a small phase
+/// is not near a zero. With a = h omega, the error after this time is C a^2 (1 + O(a / 4)), which changes the order by
+/// less than 0.05 for a below 0.12. The error of one step is C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
   std::vector<Case> cases;
   for (const double halvings : {2, 1, 3}) {
@@ -141,16 +141,16 @@ std::vector<Case> both_orders(Random& random) {
   return cases;
 }
 
-/// The error of the rule after the time T from x = 1 and the exact next position. This rule also rotates by theta per
-/// step with cos(theta) = 1 - a^2/2.
+/// The error of the rule after `steps` steps from x = 1 and the exact next position. A step of this rule, too, rotates
+/// by theta with cos(theta) = 1 - a^2/2.
 double verlet_error(double a, double steps) {
   const double theta = std::acos(1 - a * a / 2);
   const double sine = (std::cos(a) - std::cos(theta)) / std::sin(theta);
   return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
 }
 
-/// The actual error by the closed form. It equals the error over times^2 up to the next power of a: within 3 % for a
-/// below 0.06.
+/// Cases whose expected answer is the actual error, from the closed form. It differs from the given error divided by
+/// `times` squared by the next power of a, which is at most 3 % for a below 0.06.
 std::vector<Case> smaller_steps(Random& random) {
   std::vector<Case> cases;
   for (const int times : {2, 4, 10}) {
@@ -184,7 +184,7 @@ std::vector<Case> rk4_steps(Random& random) {
   }
   return cases;
 }
-/// RK4 loses energy at an ordinary step; near h omega = 2.83 it loses on one side and gains on the other.
+/// RK4 loses energy if h omega is below 2.828, and gains energy above this value.
 std::vector<Case> rk4_energies(Random& random) {
   std::vector<Case> cases;
   for (const auto& [low, high] : {std::pair{0.4, 0.7}, std::pair{2.826, 2.828}, std::pair{2.829, 2.831}}) {
@@ -194,7 +194,7 @@ std::vector<Case> rk4_energies(Random& random) {
     c.in.push_back(std::pow(2 - factor, 1000));
     for (int steps = 100; steps <= 1000; steps += 100) {
       c.expected.push_back(std::pow(factor, steps));
-      c.tolerance = std::max(c.tolerance, 1e-10 * c.expected.back());  // a thousand steps of two dozen roundings
+      c.tolerance = std::max(c.tolerance, 1e-10 * c.expected.back());  // for a thousand steps of two dozen roundings
     }
     c.plot_y = 0, c.row_size = 100 * o.h;
     cases.push_back(c);

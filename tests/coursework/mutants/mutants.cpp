@@ -113,8 +113,8 @@ class Mutation {
     for (string* each : {&one.right, &one.wrong}) std::replace(each->begin(), each->end(), '\n', ' ');
     if (one.source != s_ && seen_.insert(one.source).second) made_.push_back(std::move(one));
   }
-  /// True for constants beside functions, which a student chooses (in classic), and for drawing code: neither is
-  /// tested.
+  /// True for code that is not tested: constants outside of functions, whose values students choose (in classic), and
+  /// drawing code.
   bool is_free(size_t from, size_t to) const {
     const size_t draw = s_.find("::draw()");
     return (s_.compare(from, 6, "const ") == 0 && s_.substr(from, to - from).find('(') == string::npos) || from > draw;
@@ -250,7 +250,7 @@ class Mutation {
     add("term left out", t_[k].begin, t_[i + 1].begin, text(i) == "-" ? "-" : "");
   }
 
-  /// Shifts bounds of counts, and reduces estimates from many values to two.
+  /// Shifts the bounds of loops and of rounded numbers, and lets estimates use only the first of many values.
   void counts(size_t i) {
     const string other = text(i) == "ceil" ? "floor" : text(i) == "floor" ? "ceil" : "";
     if (!other.empty() && is(i + 1, {"("})) {
@@ -270,13 +270,13 @@ class Mutation {
       add("few", t_[i - 2].begin, t_[i + 4].end, "1");
   }
 
-  /// Replaces a name initialised by `const T name = f(x);` by a repeated call: one call more, or, if a copy of x has
-  /// moved by then, a call at that copy.
+  /// Replaces a name that is initialised by `const T name = f(x);` with a repeated call of f, at `x` or at a later copy
+  /// of `x`.
   void late(size_t i) {
     if (!is(i, {"="}) || i < 3 || t_[i - 1].kind != Kind::name || t_[i - 2].kind != Kind::name) return;
     if (t_[i + 1].kind != Kind::name || !is(i + 2, {"("}) || !is(closing(i + 2) + 1, {";"})) return;
     const string name = text(i - 1), asks = s_.substr(t_[i + 1].begin, t_[closing(i + 2)].end - t_[i + 1].begin);
-    std::vector<string> moved;  // with one of its names replaced by that of a copy
+    std::vector<string> moved;  // the call with one argument replaced by a copy of this argument
     int depth = 0;
     for (size_t k = closing(i + 2) + 1; k + 1 < t_.size() && depth >= 0; ++k) {
       depth += is(k, {"{"}) ? 1 : is(k, {"}"}) ? -1 : 0;
@@ -299,7 +299,7 @@ class Mutation {
     }
   }
 
-  /// Changes statements on their own line: omitted, reordered, static, by reference.
+  /// Changes statements on a line of their own: omits or reorders them, or makes their variable static or a reference.
   void statements() {
     std::vector<Line> lines;
     for (size_t at = 0; at < s_.size();) {
@@ -361,7 +361,7 @@ class Mutation {
                           std::isupper(static_cast<unsigned char>(body[0]));
     if (declares || brackets) add("static", begin, begin, "static ");
     if (!declares) return;
-    // State next = state; becomes a reference
+    // turns a copy, such as `State next = state;`, into a reference
     const string from = body.substr(equals + 3, body.size() - equals - 4);
     const size_t name = body.rfind(' ', equals - 1);
     if (!body.starts_with("const ") && std::all_of(from.begin(), from.end(), in_name) && !std::isdigit(from[0]))

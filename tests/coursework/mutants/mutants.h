@@ -10,11 +10,11 @@ namespace coursework {
 struct Mutant {
   std::string rule;          // "operator", "constant", "index", "swapped name", "term left out", ...
   int line = 0;              // line in the source, from 1
-  std::string right, wrong;  // the lines that differ, without their context
+  std::string right, wrong;  // the changed lines of the solution and of the mutant
   std::string source;        // the complete source with the change
 };
 
-/// Up to `most` distinct mutants per rule, spread over the source. Some of them do not compile.
+/// Returns up to `most` distinct mutants per rule, spread over the source. Some of them do not compile.
 std::vector<Mutant> mutants_of(const std::string& source, std::size_t most);
 
 /// A mutant that no test can detect, and the reason, from equivalent.txt.

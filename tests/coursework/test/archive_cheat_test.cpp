@@ -57,12 +57,12 @@ class Packer {
   archive* to_;
 };
 
-/// The honest parts, except for a malicious euler.
+/// A submission whose part euler is malicious. Its other parts are honest.
 struct Trick {
   std::string name;  // name of the submission
   std::function<void(const fs::path& file, const Canaries&)> make;
   std::string says;      // key of the texts for the expected remark
-  bool all_lost = true;  // nothing is graded; otherwise only euler earns nothing
+  bool all_lost = true;  // true: the whole submission earns nothing; false: only euler earns nothing
 };
 
 void honest(const fs::path& folder, const Canaries& canaries) {

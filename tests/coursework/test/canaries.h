@@ -9,8 +9,8 @@
 
 namespace coursework {
 
-/// A home that others may read, and, as on Gradescope, folders of mode 0700 with the results and the course (check/ and
-/// a1-steppers/), which the grader uses during the lifetime of this object.
+/// A home folder that others may read, and, as on Gradescope, folders of mode 0700 with the results and with the course
+/// (check/ and a1-steppers/). During the lifetime of this object, the grader uses this course.
 class Canaries {
  public:
   Canaries();
@@ -18,7 +18,8 @@ class Canaries {
   std::filesystem::path home() const { return home_.path(); }
   std::filesystem::path results() const { return results_.path(); }
   std::filesystem::path tests() const;
-  /// Everything changed, added or removed there, or left in world-writable folders, since construction.
+  /// Everything that has been changed, added or removed in these folders, or left in world-writable folders, since
+  /// construction.
   std::string harm() const;
 
  private:

@@ -1,5 +1,5 @@
-// No trick of cheats/ earns anything on the part that it attacks: thoroughly on one assignment, and a few tricks on
-// all.
+// No trick of cheats/ earns anything on the part that it attacks. Tests all tricks on one assignment, and a few tricks
+// on all assignments.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -44,7 +44,7 @@ struct Few {
   Assignment assignment;
 };
 
-/// Rows {t, h, x, next} of the public tests' inputs and answers, for calls that are one step of a system.
+/// Rows {t, h, x, next}: inputs and answers of the public tests whose calls are one step of a linear system.
 std::string public_table(const Assignment& assignment) {
   std::ostringstream out;
   out.precision(17);
@@ -87,7 +87,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
   Canaries canaries_;
 };
 
-/// Keys of the texts in the second line, any of which is accepted. Wrong numbers may also be too many or too few.
+/// Keys of the accepted texts, from the second line of a cheat. If the numbers may differ, their count may differ, too.
 std::vector<std::string> expected(const fs::path& cheat) {
   std::istringstream lines(content_of_file(cheat));
   std::string line;
@@ -124,7 +124,7 @@ TEST_P(CheatTest, EarnsNothingAndHarmsNothing) {
     submission.files[part] = content_of_file(canaries_.tests() / "solution" / part);
   GradeOptions options;
   options.seed = 7;
-  options.least_cpu = 3;  // loops are stopped at the limit, whatever it is
+  options.least_cpu = 3;  // a small limit, because endless loops run up to any limit
   options.common = Texts::read((fs::path(COURSEWORK_FOLDER) / "check/common.en.txt").string());
   const Result result = grade(few_.assignment, submission, *sandbox, options);
   ASSERT_TRUE(result.complete);
@@ -155,7 +155,7 @@ namespace fs = std::filesystem;
 
 struct Trick {
   const char* name;
-  const char* before_main;  // TESTS and RESULTS are the lecturer's files
+  const char* before_main;  // code in which TESTS and RESULTS are files of the lecturer
 };
 
 constexpr Trick tricks[] = {
@@ -170,8 +170,8 @@ constexpr Trick tricks[] = {
      R"(const int file = open(RESULTS, O_WRONLY | O_CREAT, 0666); if (file >= 0) write(file, "100", 3);)"},
 };
 
-/// The assignment with one test of the attacked part: the first part of a hand-out with a file per part, or the last
-/// part of a whole program, which excludes the needs of the others.
+/// The assignment with a single test of the attacked part. This is the first part if each part has a file of its own.
+/// For a whole program it is the last part, which does not depend on classes that other parts need.
 struct OnePart {
   explicit OnePart(const Assignment& whole) : assignment(whole) {
     part = whole.takes_whole_program() ? whole.parts.back().name : whole.parts.front().name;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
-/// By test number, public and hidden.
+/// Points of each test in the result file, public and hidden tests by test number.
 std::vector<double> earned_in(const fs::path& json) {
   std::vector<double> earned;
   for (const TestResult& test : result_from_json(content_of_file(json), json.string()).tests)
@@ -60,7 +60,7 @@ TEST_F(TinyClass, RegradesTheTestsThatAreNamedAndKeepsTheRest) {
   EXPECT_EQ(earned_in(out / "ada.json"), (std::vector<double>{0, 20, 0, 0, 10, 0}));
   EXPECT_EQ(all[0].result.tests[0].said, "Wrong then.");
   EXPECT_NE(content_of_file(out / "ada.html").find("Total: 30 of 100 points"), std::string::npos);
-  // the stored result is of the same program and assignment, so that nothing runs again
+  // program and assignment have not changed since the stored result, so that nothing runs again
   EXPECT_EQ(grade()[0].result.earned(), 30);
 }
 
@@ -68,7 +68,7 @@ TEST_F(TinyClass, RegradesOverAChangedGraderButGradesChangedFilesWhole) {
   grade();
   forget_points("ada");
   forget_points("class");
-  for (const char* who : {"ada", "class"}) {  // results as left by another version of the grader or assignment
+  for (const char* who : {"ada", "class"}) {  // makes results look like those of another version of the grader
     const fs::path file = out / (file_name_for(who) + ".json");
     std::string fingerprint;
     const Result result = result_from_json(content_of_file(file), file.string(), &fingerprint);

@@ -13,7 +13,7 @@
 namespace coursework {
 namespace {
 
-/// One failing test of the cloth, and one passing test of the part before it.
+/// The assignment with only one test of each of the last two parts.
 struct Short {
   explicit Short(const Assignment& whole) : assignment(whole) {
     assignment.parts = whole.parts.last(2);
@@ -35,7 +35,7 @@ struct Failing {
   const char* says;
 };
 
-// grade_test.cpp covers failures that the smallest assignment can have as well.
+// grade_test.cpp covers failures that may also occur in the smallest assignment.
 TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   const Assignment& whole = find_assignment("classic");
   const Short few(whole);
@@ -142,7 +142,7 @@ TEST(Classic, WhatKeepsAClassFromBeingUsedIsToldWithoutDenyingIt) {
             std::string::npos);
 }
 
-// A fault is reported as itself, whatever it resembles: features of answers are no evidence of single precision.
+// The report names the actual mistake, even if its answers resemble those of another cause such as single precision.
 TEST(Classic, AKnownMistakeIsNamedAsTheCause) {
   const Assignment& whole = find_assignment("classic");
   std::vector<coursework::Test> tests;

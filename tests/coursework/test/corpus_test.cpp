@@ -1,5 +1,6 @@
-// Every assignment's corpus on many seeds: solution and styles earn all points; each known mistake loses exactly its
-// tests and is named; other mistakes get no name. CORPUS_SEEDS and CORPUS_MISTAKES (per assignment) set the amount.
+// Grades every assignment's corpus with many seeds. Solution and styles earn all points; each known mistake loses
+// exactly its tests and is named; other mistakes get no name. CORPUS_SEEDS and CORPUS_MISTAKES set the number of seeds,
+// and of mistakes per assignment.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,14 +34,14 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
         count_(static_cast<std::size_t>(number_from("CORPUS_MISTAKES", 3))),
         seeds_(number_from("CORPUS_SEEDS", 2)) {}
 
-  /// A third of the mistakes without a name suffices.
+  /// The first of the mistakes that have no name: a third of CORPUS_MISTAKES suffices.
   template <class T>
   std::vector<T> first(std::vector<T> all) const {
     all.resize(std::min(all.size(), (count_ + 2) / 3));
     return all;
   }
 
-  /// Runs all tests of a part in one process each, as in grading, because a mistake may keep state between calls.
+  /// Runs each test of a part in a process of its own, as in grading, because a mistake may keep state between calls.
   std::vector<TestRun> ask(const std::string& part, const fs::path& program, int seed) const {
     std::vector<TestRun> asked;
     for (const coursework::Test& test : assignment_.tests) {
@@ -63,7 +64,7 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   }
 
   std::string cause(const std::string& part, const std::vector<TestRun>& asked) const {
-    std::string names;  // several if the evidence does not single out one
+    std::string names;  // more than one name if the evidence is ambiguous
     for (const std::string& name : likely_causes(assignment_, part, asked, known_, *builder_, *sandbox_, 2))
       names += (names.empty() ? "" : " or ") + name;
     return names;
@@ -146,7 +147,7 @@ TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
   for (int seed = 0; seed < seeds_; ++seed) {
     sandbox_->forget();
     for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i) {
-      // a sample, spread over the parts
+      // takes a sample that is spread over the parts
       const Mistake& mistake = known_[count_ < known_.size() ? i * known_.size() / count_ : i];
       EXPECT_TRUE(texts.has("mistake." + mistake.name)) << mistake.name;
       const fs::path program = builder_->ours(mistake.part, with_mistake(solution(mistake.part), mistake));

@@ -1,5 +1,4 @@
-// A whole program whose file answers before main, with the true token: prepared answers do not fit the actual
-// questions.
+// A whole program that sends prepared answers before main, with the true token: they do not fit the actual questions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -14,7 +13,7 @@
 namespace coursework {
 namespace {
 
-/// Answers each call by its name with a prepared line.
+/// Code that answers each call with a prepared line, which it finds by the name of the call.
 constexpr const char* forger = R"(
 #include <unistd.h>
 #include <iostream>
@@ -87,7 +86,7 @@ class Forged : public testing::TestWithParam<const char*> {
     return builder_->ours(GetParam(), solution_ + table + "};\n" + forger);
   }
 
-  /// Ids of the tests that the program passes. `asked_seed` 0: with the seeds that the tests draw themselves.
+  /// Ids of the tests that the program passes. If `asked_seed` is not 0, it replaces the seeds that the tests draw.
   std::set<std::string> passed(const std::filesystem::path& program, std::uint64_t seed, int asked_seed = 0) const {
     std::set<std::string> ids;
     for (const coursework::Test& test : tests_) {
@@ -142,7 +141,7 @@ TEST_P(Forged, WhatTheGraderFindsEarnsNothingWhenItIsSent) {
   EXPECT_EQ(passed(forging(lines), 2), std::set<std::string>());
 }
 
-/// Most answers are a few of many numbers: the record of a large cloth stays below the limit on a process's output.
+/// For a large cloth, most answers contain only a few of the numbers: the record stays below the limit on output.
 class LargeCloth : public Forged {};
 
 TEST_P(LargeCloth, LeavesARecordThatIsSmallEnough) {
@@ -193,7 +192,7 @@ TEST_P(Forged, NoRecordHarmsTheGrader) {
         changed[static_cast<std::size_t>(random.integer(0, static_cast<int>(honest.size()) - 1))] = value;
         looked_at(changed);
       }
-      // the maximum line length
+      // records of the maximum line length
       classic::replay(what, Numbers(2000000, value));
       Numbers large = {1e5};
       large.resize(2000000, value);

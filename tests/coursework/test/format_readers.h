@@ -16,7 +16,7 @@ struct Field {
   std::string name;
   enum Type { number, text, flag, object, list, any } type;
   bool required = true;
-  std::vector<std::string> allowed = {};  // allowed text values; empty: any
+  std::vector<std::string> allowed = {};  // allowed text values; if empty, any text is allowed
 };
 
 inline bool is(const crosscheck::JsonField& value, Field::Type type) {
@@ -62,7 +62,7 @@ inline std::string violations(const crosscheck::JsonField& value, const std::vec
   return wrong;
 }
 
-// A subset of XML: elements, attributes, text, the five named and decimal entities.
+// A subset of XML: elements, attributes, text, the five named entities and decimal entities.
 
 struct Element {
   std::string name, text;

@@ -180,7 +180,7 @@ TEST(Junit, FollowsTheSchemaAndCountsRight) {
   }
   const std::string text = junit(awkward(), common());
   const Element root = XmlReader(text).document();
-  ASSERT_EQ(root.children.size(), 3u);  // preflight and two parts, with the hidden tests in their part
+  ASSERT_EQ(root.children.size(), 3u);  // preflight and two parts, which contain their hidden tests
   const Element& wrong = root.children[1].children[1].children.at(0);
   EXPECT_EQ(wrong.name, "failure");
   EXPECT_EQ(wrong.attributes.at("message"), "row 2: expected 1 < x & \"y\", got");
@@ -207,7 +207,7 @@ TEST(Formats, HiddenNumbersStayOutOfWhatStudentsReadAtOnce) {
   Result all_right = awkward();
   for (TestResult& t : all_right.tests)
     if (t.hidden) t.earned = t.points, t.said.clear(), t.seconds = 7;
-  // the verdicts of hidden tests have no influence
+  // the verdicts of hidden tests do not influence these outputs
   EXPECT_EQ(junit(awkward(), common()), junit(all_right, common()));
   EXPECT_EQ(summary_of(awkward(), common()), summary_of(all_right, common()));
   EXPECT_EQ(junit(awkward(), common()).find("SECRET"), std::string::npos);

@@ -94,7 +94,8 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
-// As in the hand-out: headers next to the parts, including names of ours, and functions defined in an earlier part.
+// As in the hand-out, students may add headers next to the parts, also with names of our headers, and may call
+// functions that an earlier part defines.
 TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   Submission submission =
       submission_of(tiny(), {{"twice.cpp",
@@ -158,7 +159,7 @@ TEST(Grade, ThreadsAreAllowedUpToALimitThatIsNamed) {
   }
 }
 
-/// Eight hundred times as slow as the official solution, but far below every limit.
+/// Code that is eight hundred times as slow as the official solution, but far below every limit.
 const char* const slow_sums =
     "#include \"tiny.h\"\n"
     "std::vector<double> sums(const std::vector<double>& n) {\n"
@@ -183,7 +184,7 @@ TEST(Grade, SlowCodeHasTheSamePointsIdleAndUnderALoadOfEight) {
 }
 
 TEST(Grade, ALoopWithoutEndIsNotGradedAndNotRunAgain) {
-  EXPECT_EQ(GradeOptions().least_cpu, 30);  // s: promised in the READMEs, and too long for a test
+  EXPECT_EQ(GradeOptions().least_cpu, 30);  // the READMEs promise 30 s, which is too long for a test
   const Result result =
       graded({{"twice.cpp", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }"}}, 7, 2);
   EXPECT_EQ(earned_by(result, "twice"), 0);
@@ -234,7 +235,7 @@ TEST(Grade, OtherMistakesAndTwoAtOnceAreGivenNoName) {
   }
 }
 
-// A cause is reported if an experiment proves it, and not if something merely resembles it.
+// A cause is reported if an experiment proves it, but not if the answers merely resemble its effect.
 TEST(Grade, CausesAreFoundByExperiment) {
   const std::pair<const char*, Remark> table[] = {
       {"const float single = static_cast<float>(x); return 2 * single;", {"suspect.float", {}}},

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
-/// All points, or without those of the second part.
+/// A submission that earns all points, or no points in the second part if `all` is false.
 GradedSubmission graded(const std::string& name, bool all = true) {
   GradedSubmission one;
   one.result.submission = name;
@@ -318,7 +318,7 @@ TEST(Layouts, NothingIsSkippedInSilence) {
   std::ofstream(here.path /
                 "\xef\xbb\xbf"
                 "ada.zip")
-      << "x";  // shown as the other one
+      << "x";  // this name looks like "ada.zip"
   std::vector<std::string> skipped, names, stems;
   for (const Handed& one : submissions_in(here.path, &skipped)) {
     names.push_back(one.name);

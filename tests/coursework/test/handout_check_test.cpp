@@ -43,7 +43,7 @@ Ran run(const std::string& command) {
   return ran;
 }
 
-/// The hand-out in a folder, and a student who fills it in.
+/// A hand-out in a folder, whose files the tests replace as students would.
 class Given {
  public:
   explicit Given(const Assignment& assignment) { write_handout(assignment, folder); }
@@ -53,7 +53,7 @@ class Given {
       if (!fs::exists(folder / file) || content_of_file(folder / file) != content)
         crosscheck::write_file(folder / file, content);
   }
-  /// Builds what has changed, and runs it. Without optimisation, which is fastest to compile.
+  /// Builds what has changed, and runs `check`. Builds without optimisation, because this compiles fastest.
   Ran check(const std::string& which = "") const {
     const std::string here = folder.string();
     const Ran built =
@@ -67,7 +67,7 @@ class Given {
   fs::path folder = scratch.path / "given";
 };
 
-/// "63" from "..., 63 points in all".
+/// The number of points that the README promises: "63" from "..., 63 points in all".
 std::string promised(const fs::path& folder) {
   const std::string text = content_of_file(folder / "README.md");
   const size_t end = text.find(" points in all"), begin = text.rfind(' ', end - 1) + 1;
@@ -110,7 +110,7 @@ std::vector<bool> curves_apart(const fs::path& page) {
   return apart;
 }
 
-/// The grader's first feedback on a test's public cases; empty if they are right.
+/// The grader's feedback on the first wrong public case of a test; empty if all cases are right.
 std::string said_by_grader(const Assignment& assignment, const coursework::Test& test, const fs::path& program,
                            const Sandbox& sandbox) {
   const GradeOptions options = options_for(assignment, 1);
@@ -182,8 +182,8 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
         << failing.said;
   }
   EXPECT_NE(failing.said.find(total(earned)), std::string::npos) << failing.said;
-  // Euler's rule is right, with round and other numbers; the trapezoidal rule is wrong, and so is everything that it
-  // moves
+  // Euler's rule is right, with round and other numbers; the trapezoidal rule is wrong, and so are all motions that it
+  // computes
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), (std::vector<bool>{false, false, true, true, true}));
 
   given.put(solution);
@@ -192,7 +192,7 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
   EXPECT_NE(right.said.find(total(points)), std::string::npos) << right.said;
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), std::vector<bool>(6, false));
 
-  // a student who submits the whole folder submits no file of ours
+  // if a student submits the whole folder, the selection contains no file of ours
   const classic::Selection chosen = classic::choose_files(read_submission(given.folder, {}).files);
   for (const auto& [path, content] : chosen.files)
     EXPECT_TRUE(solution.count(path) || path.starts_with("vecmath/")) << path;

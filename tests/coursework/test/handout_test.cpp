@@ -28,13 +28,13 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Heads of loops, includes and declared names, which code on the same subject shares.
+/// True for heads of loops, includes and declarations, which code on the same subject has in common.
 bool says_little(const std::string& line) {
   return (line.starts_with("for (") && line.ends_with("{")) || line.starts_with("#include ") ||
          (line.starts_with("struct ") && line.ends_with(";"));
 }
 
-/// Stripped lines that are too long to coincide by chance.
+/// Lines without indentation that are too long to coincide by chance.
 std::set<std::string> telling_lines(const fs::path& file) {
   std::set<std::string> lines;
   std::istringstream in(content_of_file(file));
@@ -78,7 +78,7 @@ TEST(Handout, HoldsWhatTheStudentNeeds) {
   }
 }
 
-/// Lines of secret files, except declarations that the starter, the calls and the lecture show anyway.
+/// Secret lines are those of files that are not handed out, except lines that also occur in files that are handed out.
 TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
   for (const Assignment& assignment : assignments()) {
     std::set<std::string> secret;
@@ -90,7 +90,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
       bool given = false;
       for (const char* begin : {"handout.", "starter/", "calls", "texts.", "stubs/"})
         given = given || inside.starts_with(begin);
-      // also handed out: the code that finds features in a whole program's answers
+      // the code that finds features in a whole program's answers is also handed out
       bool judges = false;
       if (assignment.takes_whole_program())
         for (const char* begin : {"probe/", "looks", "motion", "oracles", "replay", "shapes", "springs"})
@@ -102,7 +102,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
     }
     for (const fs::path& file : files_below(from.parent_path() / "check")) shown += content_of_file(file) + "\n";
     for (const fs::path& file : secrets) {
-      // sources of the grader begin and end alike; files that judge must not contain any line of an answer
+      // sources of the grader have some lines in common; but files that judge must not contain any line of a solution
       const std::string inside = fs::relative(file, from).generic_string();
       const bool ours =
           (inside.starts_with("base/") || inside.find('/') == std::string::npos) && file.extension() != ".txt";
@@ -132,7 +132,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
 /// True for a short decimal number, up to rounding: zero, 0.2, 1.5.
 bool is_plain(double value) { return std::abs(value) < 1e-12 || fmt::format("{:.12g}", value).size() <= 6; }
 
-/// As written in the file.
+/// Numbers of a file of public tests that have many digits, as written in the file.
 std::set<std::string> long_numbers(const PublicTests& tests) {
   std::ostringstream out;
   write_cases(out, tests);
@@ -165,7 +165,7 @@ TEST(Handout, HasNoHiddenNumber) {
     const std::string all = Handout(assignment).all();
     EXPECT_GT(one.size(), 50u) << assignment.name;
     for (const std::string& number : one) {
-      // identical for every seed: a constant of the test, not a secret
+      // a number that is identical for every seed is a constant of the test, not a secret
       if (other.count(number)) continue;
       EXPECT_EQ(given.count(number), 0u) << assignment.name << ": " << number;
       EXPECT_EQ(all.find(number), std::string::npos) << assignment.name << ": " << number;

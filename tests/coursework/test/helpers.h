@@ -17,7 +17,7 @@ inline Texts common_texts(const std::string& language = "en") {
   return Texts::read((folder_of_coursework() / "check" / ("common." + language + ".txt")).string());
 }
 
-/// Letters, digits, and _ for all other characters.
+/// The text with _ in place of all characters that are not letters or digits.
 inline std::string name_of_test(std::string_view text) {
   std::string name(text);
   std::replace_if(

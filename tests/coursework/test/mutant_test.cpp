@@ -1,6 +1,6 @@
-// Mutants of every official solution must lose points at a test of the wrong part; mutants/equivalent.txt justifies
-// those that cannot. MUTANTS sets their number (default 40; 0: all), MUTANTS_SEED (default 1) selects them, and
-// MUTANTS_SURVIVORS names a file for all survivors.
+// Mutants of every official solution must lose points at a test of the changed part; mutants/equivalent.txt justifies
+// those that cannot lose points. MUTANTS sets the number of mutants (default 40; 0 for all), MUTANTS_SEED (default 1)
+// selects them, and MUTANTS_SURVIVORS names a file to which all survivors are written.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace coursework {
 namespace {
 namespace fs = std::filesystem;
 
-/// Limit per rule and file; all mutants would be four thousand, and take hours.
+/// Maximum number of mutants per rule and file. All four thousand mutants would take hours.
 constexpr std::size_t most_of_a_rule = 2;
 
 struct Tried {
@@ -40,8 +40,8 @@ struct Tried {
   }
 };
 
-/// Part that contains the line. In a file with several parts, each part in turn is a function that begins in column
-/// one.
+/// Part that contains the line. If a file has several parts, each part is a function that begins in column one, in the
+/// order of the parts.
 std::string part_at(const std::string& source, int line, const std::vector<std::string>& parts) {
   std::size_t functions = 0, at = 0;
   for (int i = 1; i <= line && at < source.size(); ++i) {
@@ -52,7 +52,7 @@ std::string part_at(const std::string& source, int line, const std::vector<std::
   return parts[std::min(parts.size(), std::max<std::size_t>(1, functions)) - 1];
 }
 
-/// The first test that loses points, public or hidden; empty: none.
+/// The first test that loses points, public or hidden, or an empty string.
 std::string first_loss(const Tried& one, const std::string& part, const fs::path& program, const Sandbox& sandbox) {
   for (const coursework::Test& test : one.assignment->tests) {
     if (test.part != part) continue;
@@ -132,7 +132,7 @@ TEST_F(Mutants, ThereAreEnoughOfEveryRule) {
     EXPECT_GE(of_rule[rule], 3) << rule;
 }
 
-// An entry whose line no mutation produces any more is obsolete.
+// An entry of equivalent.txt is obsolete if no mutation produces its line any more.
 TEST_F(Mutants, EveryArgumentIsOnAMutant) {
   for (const Equivalent& e : equivalent_)
     EXPECT_TRUE(std::any_of(all_.begin(), all_.end(),
@@ -152,7 +152,7 @@ TEST_F(Mutants, LosePointsAtTheirPart) {
     Random random(number_from("MUTANTS_SEED", 1));
     for (std::size_t i = chosen.size(); i > 1; --i)
       std::swap(chosen[i - 1], chosen[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
-    // some do not compile, so a few more are prepared
+    // prepares more mutants than needed, because some do not compile
     chosen.resize(std::min<std::size_t>(chosen.size(), 2 * count));
   }
   std::ofstream survivors;

@@ -1,5 +1,5 @@
-// Runs a command as in containers that forbid namespaces: unshare and clone with namespace flags fail with EPERM,
-// clone3 fails with ENOSYS. no_namespaces COMMAND ARGUMENT...
+// no_namespaces COMMAND ARGUMENT... runs a command as in containers that forbid namespaces: unshare and clone with
+// namespace flags fail with EPERM, and clone3 fails with ENOSYS.
 #include <sched.h>
 #include <seccomp.h>
 #include <unistd.h>
@@ -18,8 +18,7 @@ int main(int count, char** arguments) {
     if (spaces & flag)
       failed |=
           seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(clone), 1, SCMP_A0(SCMP_CMP_MASKED_EQ, flag, flag));
-  // Without no_new_privs, root keeps its rights: it may install a filter, and children may still change to another
-  // user.
+  // Root does not need no_new_privs to install a filter. Without it, children may still change to another user.
   seccomp_attr_set(filter, SCMP_FLTATR_CTL_NNP, geteuid() != 0);
   if (failed || seccomp_load(filter) != 0) return std::fprintf(stderr, "no_namespaces: no filter\n"), 2;
   execvp(arguments[1], arguments + 1);

@@ -1,4 +1,4 @@
-// Observations on wrong answers, by arithmetic and by repeated calls with other numbers.
+// Observations on wrong answers, which come from arithmetic and from repeated calls with other numbers.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ Case falling(double drag = 0.2) {
   return c;
 }
 
-/// Observations on one case, confirmed by a second one with another drag.
+/// Observations on one case, confirmed by a second case with another drag.
 template <class Force>
 std::string seen(Force force) {
   const Case what = falling(), other = falling(0.3);
@@ -71,7 +71,7 @@ TEST(Seen, SaysWhichVectorsAreRightAndWhatTheOthersAre) {
       "be.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return m * g - drag * v + m * drag * v; }),
             "Right: x'. Wrong: v'. Where v' is wrong, it is the right value plus (drag) times v.");
-  // two errors at once: no simple explanation
+  // two simultaneous errors have no simple explanation
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return 1.3 * m * g - 1.7 * drag * v + 0.1; }),
             "Right: x'. Wrong: v'.");
 }
@@ -104,7 +104,7 @@ TEST(Table, HasExpectedBesideGot) {
             "  particle 0, pair[1]     -9.81      9.81  <- differs\n"
             "  particle 1, pair[0]         0         0\n"
             "  particle 1, pair[1]  0.333333  0.333333");
-  // only the numbers that differ, if they are few of many
+  // the table of many numbers shows only those that differ, if they are few
   what.expected = Numbers(8, 1.0);
   EXPECT_EQ(table({1, 1, 1, 2, 1, 1, 1, 1}),
             "                       expected  got\n"
@@ -150,7 +150,7 @@ TEST(Seen, SumsAreFittedOrRefused) {
   EXPECT_TRUE(coefficients({a, a}, a, 1e-12).empty());
 }
 
-/// Generic numbers without any relation.
+/// The case with generic numbers, which are not related to each other.
 Case in_general(Case c) {
   for (std::size_t i = 1; i < c.in.size(); ++i) c.in[i] *= 1 + 0.0123456789 * static_cast<double>(i);
   c.expected = right_rates(c.in);
@@ -198,7 +198,7 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
       "Tried with other numbers: with v = 0 your answers are right. They are wrong only where this quantity matters.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
-  // right by accident without drag, because the first mass is 1 and the second particle moves along no axis
+  // without drag the answers are right by accident, for particles of mass 1 and 1.6
   EXPECT_EQ(observed(
                 [](const Numbers& in) {
                   return rates(in, [](double m, double g, double drag, double v) {
@@ -209,7 +209,7 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
             "");
 }
 
-// A step of a frame, which is right only if the frame has a single step.
+// The code computes a frame of several steps, and is right only if the frame has a single step.
 TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
   const Texts own = Texts::parse("[given.frame]\n| steps# frame x v\n", "texts");
   const auto x = [](const Numbers& in, double h) { return in[2] + in[0] * h * in[3] + h * h * std::sin(in[1]); };
@@ -285,7 +285,8 @@ TEST(Look, ReadsAStepperOffItsCalls) {
 }
 
 TEST(Look, ReadsTheEquationOfAnImplicitStep) {
-  // on a line: a 2 x 2 system by Cramer's rule; `sign` of the term with the velocities, `ahead` of the position's
+  // solves the 2 x 2 system of two particles on a line by Cramer's rule. `sign` multiplies the term with the
+  // velocities, `ahead` a term of the position
   const auto equation = [](double sign, double ahead) {
     const auto ask = [&](const std::vector<Case>& cases) {
       std::vector<Answer> answers;

@@ -1,5 +1,6 @@
 // Unusual but correct programs: variants of the classic solution and its styles, modelled on real submissions. Each
-// earns all points; undecidable features are reported without loss of points. A few here, all with ODD_PROGRAMS=1000.
+// earns all points; undecidable features are reported without loss of points. By default, a few of the programs are
+// tested; ODD_PROGRAMS=1000 tests all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void rename_class(Files& files, const std::string& from, const std::string& to) 
   for (auto& [path, content] : files) content = with_word(content, from, to);
 }
 
-/// Throws if the text does not exist.
+/// Replaces a text of a file. Throws if the text does not exist.
 void put(Files& files, const std::string& path, const std::string& from, const std::string& to) {
   std::string& text = files.at(path);
   const std::size_t at = text.find(from);
@@ -68,7 +69,7 @@ const std::string eval_zero =
     "  vector<Vector3f> evalF(vector<Vector3f> state) { return vector<Vector3f>(state.size()); }\n";
 const std::string draw_none = "  void draw() {}\n";
 
-/// Variants of evalF's end in which the student's obstacle stops particles that touch it.
+/// Inserts an obstacle at the end of evalF, which stops particles for which the expression `where` is true.
 void stop_in(Files& files, const std::string& path, const std::string& where) {
   put(files, path, "  return f;\n}\n\nvoid",
       "  for (size_t i = 0; i + 1 < state.size(); i += 2) {\n    const Vector3f at = state[i];\n    if (" + where +
@@ -77,7 +78,7 @@ void stop_in(Files& files, const std::string& path, const std::string& where) {
 
 struct Odd {
   const char* name;
-  const char* style;  // folder of the assignment
+  const char* style;  // folder of the assignment with the program that is changed
   std::function<void(Files&)> change;
   bool undecided = false;  // some features cannot be decided, and the feedback says so
 };
@@ -480,7 +481,7 @@ TEST_P(OddPrograms, EarnAllOrAreToldWithoutBlameWhatCannotBeDecided) {
   std::printf("%-55s %3g of 100%s\n", odd.name, result.earned(), undecided.empty() ? "" : ", rest undecided");
   if (odd.undecided) {
     EXPECT_FALSE(undecided.empty()) << remarks;
-    // non-determinism is reported at its own test, and nothing else is wrong
+    // only the test of repeated calls reports the non-determinism
     EXPECT_EQ(lost.rfind("5.1 ", 0), 0u) << lost;
     EXPECT_EQ(lost.find("\n5."), std::string::npos) << lost;
   } else {

@@ -1,5 +1,5 @@
-// The package: its content, and the container of its rehearsal. The rehearsal itself takes minutes and is not tested
-// here.
+// Content of the package, and the container in which it is rehearsed. The rehearsal itself takes minutes and is not
+// tested here.
 #include "tests/coursework/grader/pack.h"
 
 #include <gtest/gtest.h>
@@ -30,9 +30,9 @@ TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
       {"a/local.h", ""},
       {"a/x.h", "#include \"b/y.h\"\n"},
       {"a/x.cpp", "#include \"a/x.h\"\n"},
-      {"a/part.cpp", "#include \"a/x.h\"\n"},                         // no header of its own: belongs to x.h
+      {"a/part.cpp", "#include \"a/x.h\"\n"},                         // belongs to x.h: has no header of its own
       {"a/other.h", ""},                                              // not included by any file
-      {"a/other.cpp", "#include \"a/x.h\"\n"},                        // uses x.h, belongs to other.h
+      {"a/other.cpp", "#include \"a/x.h\"\n"},                        // uses x.h, but belongs to other.h
       {"a/second.cpp", "#include \"a/x.h\"\nint main() {}\n"},        // another program
       {"a/calls.cpp", "#include \"a/x.h\"\n#include \"calls.h\"\n"},  // compiled elsewhere, with another calls.h
       {"b/y.h", ""},
@@ -231,10 +231,10 @@ TEST(RunInContainer, StopsWhatTakesTooLongOrTooMuch) {
 }
 
 TEST(RunInContainer, CountsTheWorkOfAllProcessesAtSoManyCpus) {
-  // two shells that count in parallel take as long as their work at a tenth of a CPU
+  // with so few `cpus`, `time` is CPU time divided by `cpus`: two shells that count in parallel take longer than one
   const std::string work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
   const auto time_of = [](const std::string& script) { return shell(script, {.cpus = 1e-3}).used.time; };
-  // other load on the machine only makes a run longer: takes the shortest of three, alternately
+  // other load on the machine only lengthens a run: compares the shortest of three runs each, in alternation
   double both = INFINITY, one = INFINITY;
   for (int round = 0; round < 3; ++round) {
     both = std::min(both, time_of("(" + work + ") & (" + work + "); wait"));

@@ -43,7 +43,7 @@ TEST(Answers, AreTakenOnlyWhenAllIsInOrder) {
   EXPECT_EQ(answers_of({End::How::exited, 0, good, ""}, "T", 2, {})[0].got, Numbers{1});
   EXPECT_EQ(hows("threw no\nanswer 0\ntoken T\n", 2), (Hows{How::threw, How::answered}));
   EXPECT_EQ(hows("threw std::bad_alloc\nanswer 0\ntoken T\n", 2), (Hows{How::out_of_memory, How::answered}));
-  // exited early: earlier answers are kept, but earn nothing by themselves
+  // if a program exits early, its earlier answers are kept, but earn nothing by themselves
   EXPECT_EQ(hows("answer 1 0x1p+0\n", 2), (Hows{How::answered, How::no_token}));
   for (const char* bad :
        {"", "token T\n", "answer 1 0x1p+0\nanswer 1 0x1p+0\n", "answer 1 0x1p+0\nanswer 1 0x1p+0\ntoken X\n",
@@ -83,13 +83,13 @@ TEST(Answers, LastWordsExplainAnEndAndProveNothing) {
   EXPECT_EQ(slow.how, How::out_of_time);
   EXPECT_EQ(slow.counts, (std::vector<std::pair<std::string, long>>{{"step", 3}, {"f", 1200}}));
   EXPECT_EQ(last("recursion\n", End::How::signal, SIGSEGV).how, How::recursion);
-  // malformed, or with another kind of end
+  // these lines are malformed, or do not fit the way in which the program ended
   EXPECT_TRUE(last("slow <b>step</b> 3\n", End::How::cpu, SIGXCPU).counts.empty());
   EXPECT_TRUE(last("slow step 123456789012345\n", End::How::cpu, SIGXCPU).counts.empty());
   for (const char* word : {"slow step 3\n", "recursion\n"})
     EXPECT_EQ(last(word, End::How::exited, 0).how, How::no_token);
   EXPECT_EQ(last("recursion\n", End::How::signal, SIGABRT).how, How::no_token);
-  // messages of the calls around the code
+  // messages of the calls that run the student's code
   const Answer unusable = answers_of({End::How::exited, 0, "unusable f_size 3 2\ntoken T\n", ""}, "T", 1, {})[0];
   const Case what;
   EXPECT_EQ(words(common_texts(), common_texts(), what, unusable, judge(what, unusable)),
@@ -247,7 +247,7 @@ TEST(Words, SayWhatWasExpectedWhatCameAndWhere) {
   const Answer wrong{How::answered, {1, 2, 3, 5}};
   EXPECT_EQ(words(common_texts(), named, what, wrong, judge(what, wrong)),
             "First difference at step 2, y: expected 4, got 5.");
-  // enough digits to see the difference
+  // shows enough digits to see the difference
   EXPECT_EQ(say({How::answered, {1, 2, 3, 4.00000001}}, "en"),
             "First difference at step 1, x[1]: expected 4, got 4.00000001.");
   EXPECT_EQ(say({How::answered, {1}}, "en"), "Expected 4 numbers, got 1.");
@@ -283,7 +283,7 @@ TEST(Words, SayWhatWasGiven) {
   EXPECT_EQ(say("other", {1}), "");
 }
 
-// Shows the differing item of a list, and nothing of a list that is too long to read.
+// The text shows the item of a list that differs, and nothing of a list that is too long to read.
 TEST(Words, OfAListTellTheOneThatDiffers) {
   const Texts common = common_texts();
   const Texts own = Texts::parse(
@@ -292,7 +292,7 @@ TEST(Words, OfAListTellTheOneThatDiffers) {
   Judged second;
   second.row = 1;
   EXPECT_EQ(given_text(common, own, list, second), "Given: r = 9, n = 2, x[1] = (4, 5), m[1] = 6.");
-  // two rows per item: the second row still belongs to the first item
+  // now each item has two rows, and the second row belongs to the first item
   list.columns = 1;
   EXPECT_EQ(given_text(common, own, list, second), "Given: r = 9, n = 2, x[0] = (1, 2), m[0] = 3.");
   const Case rest{"rest", {3, 1, 2, 4, 5}, {1, 1}, 1, 0, "", ""};
@@ -425,7 +425,7 @@ TEST(Plot, DrawsBothCurvesAndSurvivesAnything) {
     EXPECT_NE(svg.find("&lt;yours&gt;"), std::string::npos);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
   }
-  // 298 x 162 pixels: the range of x is 298/162 of that of y, around the same centre
+  // the plot has 298 x 162 pixels: the range of x is 298/162 of the range of y, around the same centre
   EXPECT_NE(plot(what, what.expected, texts).find(">8.89<"), std::string::npos);
   Case nothing = what;
   nothing.plot_y = -1;

@@ -10,8 +10,8 @@
 
 namespace coursework {
 
-/// Caches the answers of `inner` by program and input, except for the token, the first line of the input, which differs
-/// every time. Jobs that write are never cached.
+/// Caches the answers of `inner` by program and input. Ignores the first line of the input, which is the token and
+/// always differs. Never caches jobs that write.
 class RecallingSandbox : public Sandbox {
  public:
   explicit RecallingSandbox(std::unique_ptr<Sandbox> inner) : inner_(std::move(inner)) {}

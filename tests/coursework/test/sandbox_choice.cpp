@@ -1,4 +1,4 @@
-// Prints which sandbox would be chosen here, or why there is none.
+// Prints the name of the sandbox that is chosen on this machine, or why no sandbox is available.
 
 #include <cstdio>
 #include <stdexcept>

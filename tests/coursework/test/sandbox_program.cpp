@@ -48,7 +48,7 @@ void burn(double seconds) {
   }
 }
 
-/// As many sleeping processes as possible, at most `count`.
+/// Starts as many sleeping processes as possible, at most `count`. Returns their number.
 long sleepers(long count) {
   for (long i = 0; i < count; ++i) {
     const pid_t child = fork();
@@ -95,7 +95,7 @@ const std::map<std::string, std::function<int(const char*)>> things = {
     {"swallow", [](const char* amount) { return std::signal(SIGXCPU, SIG_IGN), burn(std::atof(amount)), 0; }},
     {"sleep",
      [](const char* amount) {
-       sigset_t none;  // sleep functions return at once under the filter; sigtimedwait() does not
+       sigset_t none;  // unlike sleep functions, sigtimedwait() does not return at once under the filter
        sigemptyset(&none);
        const timespec time{static_cast<time_t>(std::atof(amount)),
                            static_cast<long>(1e9 * std::fmod(std::atof(amount), 1))};

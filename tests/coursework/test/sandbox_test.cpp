@@ -1,4 +1,5 @@
-// Each sandbox: limits from both sides, no remains, no access to secrets or the network.
+// Tests each sandbox: limits hold and are not too strict, no files or processes remain, and secrets and the network are
+// not accessible.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -30,7 +31,8 @@ std::string show(const End& end) {
 
 bool done(const End& end) { return end.how == How::exited && end.code == 0 && end.answers.ends_with("done\n"); }
 
-/// Each limit from both sides: the amount below it finishes, the one above is stopped and reported.
+/// A limit with an amount below it, with which a program finishes, and an amount above it, with which the program is
+/// stopped and reported.
 struct Sides {
   std::string what, below, above;
   How how;
@@ -68,7 +70,7 @@ TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
   Job napping = job("nap", "50");
   napping.limits.wall = 40;
   EXPECT_TRUE(done(sandbox().run(napping)));
-  // four busy threads per processor: the observed one waits three quarters of its time
+  // four busy threads per processor let the observed program wait for most of the time
   std::vector<std::thread> busy;
   std::atomic<bool> stop = false;
   for (unsigned i = 0; i < 4 * std::thread::hardware_concurrency(); ++i)
@@ -100,10 +102,10 @@ TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
 
 TEST_P(SandboxTest, ThreadsRunWhereNoProcessMayUpToTheirLimit) {
   EXPECT_TRUE(done(sandbox().run(job("threads", "40"))));
-  Job waiting = job("worker", "4");  // the first thread waits for another, which does not count as idle
+  Job waiting = job("worker", "4");  // the first thread waits for a busy thread, so that the program is not idle
   waiting.limits = {.cpu = 9, .wall = 60, .idle = 2};
   EXPECT_TRUE(done(sandbox().run(waiting)));
-  if (GetParam() == "bare") return;  // bounded only by the clock
+  if (GetParam() == "bare") return;  // this sandbox does not limit threads
   for (const long limit : {8, 9}) {
     Job counting = job("threads", "8");
     counting.limits.threads = limit;
@@ -170,7 +172,7 @@ TEST_P(SandboxTest, WithoutAFolderOfItsOwnItsFilesAreBoundedTogether) {
 
 TEST_P(SandboxTest, OtherProcessesHaveNoMemoryForIt) {
   if (GetParam() == "bare") return;
-  // the first process of a namespace is bwrap's, the parent of the others the grader's
+  // 1 is a process of bwrap if there is a namespace, and the parent process belongs to the grader
   const End end = sandbox().run(shell("for p in 1 $PPID; do [ -w /proc/$p/mem ] && echo $p >&3; done"));
   EXPECT_EQ(end.answers, "");
 }
@@ -245,7 +247,7 @@ pid_t child_of(pid_t parent) {
   return child;
 }
 
-// The supervisor of a killed grader kills all processes of its user, who must not be another grader's by then.
+// The supervisor of a killed grader kills all processes of its user. Another grader must not use this user before.
 TEST_P(SandboxTest, ProgramsSurviveTheEndOfAKilledGrader) {
   adopt_orphans();
   const pid_t grader = fork();
@@ -311,7 +313,7 @@ struct Stalled final : Sandbox {
 
 TEST(Sees, StalledSandboxIsAnErrorAndNoProofOfBlindness) { EXPECT_THROW(sees(Stalled(), "/x"), std::runtime_error); }
 
-/// Output of choose_sandbox in a process that is started in another way.
+/// Output of choose_sandbox in a process that is started by the command `before`.
 std::string elsewhere(const std::string& before) {
   const std::string command = before + " " SANDBOX_CHOICE;
   FILE* out = popen(command.c_str(), "r");

@@ -16,10 +16,10 @@ namespace coursework {
 
 /// Makes this process the new parent of processes that outlive a run.
 void adopt_orphans();
-/// Names of the processes that have outlived the runs since then; kills them.
+/// Kills the processes that have outlived runs since adopt_orphans(), and returns their names.
 std::set<std::string> leftover_processes();
 
-/// A test of each sandbox; skipped with the sandbox's reason if it is unavailable.
+/// A test that runs in each sandbox. If a sandbox is unavailable, the test is skipped with the reason.
 class SandboxTest : public testing::TestWithParam<std::string> {
  protected:
   SandboxTest() : open_(0711) {

@@ -22,8 +22,8 @@ Scene disturbed() {
   return s;
 }
 
-/// True if speeds are higher after twice as many steps. A growing deviation alternates in sign in each step, so that it
-/// has a high speed.
+/// True if speeds are higher after 1000 steps than after 500. A growing deviation changes its sign in each step, so
+/// that its speed is high.
 bool explodes(int passes, double rho) {
   Scene s = disturbed();
   double before = 0;
@@ -41,7 +41,7 @@ double theory(int passes) {
                        passes);
 }
 
-// Measured in 1 - rho, the relevant quantity near 1. Passes without acceleration converge for every rho below 1.
+// Compares values of 1 - rho, because rho is near 1.
 TEST(Solvers, ExplodeFromTheRhoThatEigenvaluesSay) {
   for (const int passes : {4, 8}) {
     const double expected = theory(passes);

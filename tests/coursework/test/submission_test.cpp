@@ -1,4 +1,4 @@
-// Folders, archives and whole programs: finds the requested files, and is safe for any content.
+// Reading of folders, archives and whole programs: finds the requested files, and is safe for any content.
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -230,7 +230,7 @@ TEST(Submission, TextsOfOtherEncodingsBecomePlain) {
   EXPECT_EQ(plain_utf8("\xfe\xff" + std::string("\0i\0n\x20\xac", 6)), "in\xe2\x82\xac");
   EXPECT_EQ(plain_utf8("\xff\xfe" + std::string("=\xd8\0\xde", 4)), "\xf0\x9f\x98\x80") << "two units";
   EXPECT_EQ(plain_utf8("int\xe9"), "int\xe9");
-  // GBK, in which the second byte of a character is a backslash at the end of a comment
+  // text in GBK: the second byte of the last character in the comment is a backslash
   EXPECT_EQ(plain_utf8("// \xd6\xd0\x81\x5c\nint x;"), "// \xe4\xb8\xad\xe4\xb9\x97\nint x;");
   EXPECT_EQ(plain_utf8("// \xe4\xb8\xad"), "// \xe4\xb8\xad");
 }
@@ -285,7 +285,7 @@ TEST(Submission, ArchivesOfManyKindsAndInsideEachOtherAreRead) {
   }
 }
 
-// Packed on a Chinese system: the folder's name is GBK, and its last byte is a backslash.
+// An archive from a Chinese system: the folder's name is encoded in GBK, and its last byte is a backslash.
 TEST(Submission, FoldersWithNamesInGBKAreRead) {
   const TemporaryFolder here("test");
   pack(here.path / "a.tar.gz", {{"\xd7\xf7\x81\x5c/rk4.cpp", "rk4"}}, false);
@@ -624,7 +624,7 @@ TEST(Whole, ClassesAreTriedByNameAndThenAllOthersOfTheKind) {
   EXPECT_EQ(tried("simple"), "Rope Boids ");
 }
 
-/// Includes resolve to the one folder that holds all files; error messages keep the student's own paths.
+/// All files are in one folder, to which includes are redirected. Error messages keep the student's own paths.
 TEST(Whole, IncludesAreMetWhateverTheyAreCalled) {
   const TemporaryFolder here("test");
   const std::string long_name(4000, 'x');

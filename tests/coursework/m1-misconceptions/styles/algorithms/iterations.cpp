@@ -1,4 +1,4 @@
-// With the standard algorithms.
+// Frames and plans with the standard algorithms.
 #include <algorithm>
 #include <map>
 

@@ -23,7 +23,7 @@ double parabola_sag(double length, double span) {
 
 double elastic_sag(double length, double span, double weight, double stiffness) {
   const double pull = weight * length / 2;
-  double h = pull / 100;  // the pull along the span; from below, Newton's method does not overshoot
+  double h = pull / 100;  // the pull along the span; Newton's method does not overshoot if it starts below the solution
   for (int i = 0; i < 100; ++i) {
     const double width = 2 * h / weight * std::asinh(pull / h) + h * length / stiffness;
     const double rate = 2 / weight * (std::asinh(pull / h) - pull / std::hypot(pull, h)) + length / stiffness;

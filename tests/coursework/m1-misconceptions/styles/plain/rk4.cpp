@@ -12,7 +12,7 @@ Swing rk4_step(double omega, Swing now, double h) {
   return now;
 }
 
-// energy of a unit oscillation after one step
+// energy after one step, relative to the energy at the start
 double rk4_energy_factor(double angle) {
   Swing after = rk4_step(1, {1, 0}, angle);
   return after.x * after.x + after.v * after.v;

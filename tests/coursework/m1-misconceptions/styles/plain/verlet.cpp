@@ -1,4 +1,4 @@
-// Repeats the last move, and adds the effect of the force.
+// Repeats the previous displacement, and adds the effect of the force.
 #include <cmath>
 
 #include "beliefs.h"

@@ -4,5 +4,5 @@
 #include <vector>
 
 double twice(double x);
-/// Sums of the first one, two, ... numbers.
+/// Sums of the first number, the first two numbers, ... up to all numbers.
 std::vector<double> sums(const std::vector<double>& numbers);
