@@ -50,9 +50,9 @@ State trapezoidal(const Cloth& cloth, const State& state, double t, double h) {
 }  // namespace
 
 /// derivative (cloth, state, t): x' and v' of each particle.
-/// derivative_again (cloth, state, another state, t): x' and v' at the state, before and after a call with the other
-/// state. cloth_path (cloth, state, h, steps, watched): position of the watched particle after each step. cloth_end
-/// (cloth, state, h, steps): positions of all particles after the last step.
+/// derivative_again (cloth, state, other, t): x' and v' at the state, before and after a call with the state `other`.
+/// cloth_path (cloth, state, h, steps, watched): position of the watched particle after each step.
+/// cloth_end (cloth, state, h, steps): positions of all particles after the last step.
 bool answer_derivative(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "derivative" && call != "derivative_again" && call != "cloth_path" && call != "cloth_end") return false;
   Reader reader(in);

@@ -18,7 +18,8 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
 }
 
 /// Nine numbers that test spring forces of any law: the sum of the forces; the sum of their moments about the origin;
-/// their change when all particles are moved by `shift`; the difference between R f(x) and f(R x); the power f . u.
+/// the change of the forces when all particles are moved by `shift`; the difference between R f(x) and f(R x); the
+/// power f . u.
 Numbers laws(const std::vector<Spring>& springs, const std::vector<Vec3>& x, const Vec3& shift,
              const std::vector<Vec3>& rotation, const std::vector<Vec3>& u) {
   const std::vector<Vec3> f = spring_forces(springs, x);

@@ -1,7 +1,7 @@
 // Calls of implicit_euler_step. Their input is n, steps, h, drag, gravity (3), number of springs, then `a`, `b`,
-// stiffness, rest of each spring, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n). implicit_euler.all: after the
-// last step, x (3) and v (3) of each particle implicit_euler.watch (the input ends with the index of a particle): after
-// each step, x and v of this particle
+// stiffness, rest of each spring, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n).
+//   implicit_euler.all                                 x (3), v (3) of each particle after the last step
+//   implicit_euler.watch   also: index of a particle   x (3), v (3) of this particle after each step
 #include <stdexcept>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // Calls of spring_jacobian.
-//   jacobian.matrix: d (3), stiffness, rest      its three rows
+//   jacobian.matrix: d (3), stiffness, rest      the three rows of the matrix
 #include "calls.h"
 #include "stiff.h"
 

@@ -1,6 +1,6 @@
 // Calls of solve. Their input is n, `a` (n x n, by rows), `b` (n).
-//   linear.solve       a row for each component of x
-// linear.singular    1 if std::domain_error is thrown, 0 if something is returned
+//   linear.solve       the components of x
+//   linear.singular    1 if std::domain_error is thrown, 0 if something is returned
 #include <stdexcept>
 
 #include "calls.h"

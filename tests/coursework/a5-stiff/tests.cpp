@@ -110,7 +110,7 @@ Numbers whole(Random& random, int n) {
 std::vector<Case> plain_systems(Random& random) {
   return {linear("linear.solve", strong_diagonal(random, 3, -3, 3), whole(random, 3)),
           linear("linear.solve", strong_diagonal(random, 6, -3, 3), whole(random, 6)),
-          // all entries very small, scaled by a power of two, but not singular
+          // entries are scaled by a small power of two, but the matrix is not singular
           linear("linear.solve", strong_diagonal(random, 4, -3, 3), whole(random, 4), 0x1p-60)};
 }
 std::vector<Case> pivoting(Random& random) {
@@ -193,7 +193,7 @@ std::vector<Case> none_and_all(Random& random) {
                              limit(random, trapezoidal, limits::trapezoidal, {0, 0}),
                              limit(random, implicit_euler, limits::none, {0, 0.5, 4, -2}),
                              limit(random, leapfrog, limits::leapfrog, {-1, -4})};
-  // neither spring nor drag
+  // an oscillator with neither spring nor drag
   for (const Rule rule : {explicit_euler, trapezoidal, rk4, symplectic_euler, leapfrog}) {
     cases.push_back(limit(random, rule, limits::none, {-1}));
     cases.back().in[2] = 0;

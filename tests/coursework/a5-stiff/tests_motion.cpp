@@ -211,7 +211,7 @@ Case network_of(Random& random, int count) {
   s.h = random.uniform(0.02, 0.1), s.drag = random.uniform(0.5, 3);
   s.gravity = random_direction(random) * random.uniform(5, 12);
   s.x.resize(3, count), s.v.resize(3, count);
-  // distorted, so that no two particles coincide
+  // the tetrahedron is distorted, but no two particles coincide
   const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (int i = 0; i < count; ++i) {
     s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + random_vector(random, 0.3);
@@ -236,7 +236,7 @@ Case network_of(Random& random, int count) {
 
 }  // namespace
 
-// two sizes: a solution must not keep state between calls
+// two networks of different size, because a solution must not keep state between calls
 std::vector<Case> network(Random& random) { return {network_of(random, 4), network_of(random, 3)}; }
 std::vector<Case> small_network(Random& random) { return {network_of(random, 1), network_of(random, 2)}; }
 
@@ -247,7 +247,7 @@ std::vector<Case> stiff_chain(Random& random) {
           watched(springs, 15, random.integer(1, 4), linearised_step)};
 }
 
-// one moving particle between two walls, and one step
+// a single step of one moving particle between two fixed particles
 std::vector<Case> small_stiff_chain(Random& random) {
   return {watched(chain(random, 0, 3), 1, 1, whole_step), watched(chain(random, 0.8, 3), 1, 1, linearised_step)};
 }

@@ -64,7 +64,8 @@ double left_after_step(double mu, double inertia, double rho, int passes) {
   return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
 }
 
-/// Mean of the positions that the springs propose: springs of 1/2 N/m pull a particle half as far as each is stretched.
+/// Mean of the positions that the springs propose. A spring of 1/2 N/m has a force of half its stretch, which is the
+/// displacement that it proposes.
 Points averaged(const Scene& s, const Points& x) {
   Eigen::ArrayXd count = Eigen::ArrayXd::Constant(x.cols(), 0.2);
   for (const auto& spring : s.springs) count[spring.a] += 1, count[spring.b] += 1;

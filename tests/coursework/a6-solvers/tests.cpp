@@ -26,7 +26,7 @@ std::vector<Case> weights(Random& random) {
 
 // ---- rate
 
-/// Springs of a square net at a state that is stretched evenly, sheared and shaken a little.
+/// A square net whose particles are displaced a little at random. Its springs are stretched if `rest_of_length` < 1.
 a6::Scene linearised(Random& random, int side, double rest_of_length) {
   a6::Scene s = a6::square(side, 1, rest_of_length);
   s.mass = random.uniform(0.5, 2), s.h = random.uniform(0.02, 0.05);

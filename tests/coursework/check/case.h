@@ -21,7 +21,7 @@ struct Case {
   std::string column;    // what a row contains, as a key of the texts: "state", "force"
   int plot_x = -1;       // column drawn along x, or -1 to draw the index of the row times `row_size`
   int plot_y = -1;       // column drawn along y, or -1 to draw nothing
-  double row_size = 1;   // extent of a row along x; s if rows are steps
+  double row_size = 1;   // extent of a row along x, in s if rows are steps
 };
 
 enum class How {

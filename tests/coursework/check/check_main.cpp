@@ -28,7 +28,7 @@ using namespace coursework;
 
 namespace {
 
-// Global, because a signal handler can access nothing else; prepared in advance, because it must not allocate.
+// Global, because a signal handler can access nothing else; prepared in advance, because a handler must not allocate.
 const char* if_it_crashes = "";
 
 void crashed(int) {

@@ -15,7 +15,7 @@
 namespace coursework {
 
 std::string with_digits(double value, int digits) {
-  if (std::isnan(value)) return "nan";  // the sign of nan has no meaning, nor has that of zero
+  if (std::isnan(value)) return "nan";  // nan and zero are written without a sign
   if (value == 0) return "0";
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);

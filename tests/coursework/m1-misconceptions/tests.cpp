@@ -129,7 +129,7 @@ std::vector<Case> both_orders(Random& random) {
     c.row = "run", c.column = "orders";
     cases.push_back(c);
   }
-  // errors that decrease by a different factor each time, so that all of them matter
+  // errors decrease by a different factor each time; the order is the mean, which follows from the first and the last
   for (const int count : {2, 3, 5}) {
     Numbers errors = {random.uniform(1, 3)};
     while (errors.size() < static_cast<std::size_t>(count)) errors.push_back(errors.back() / random.uniform(2, 9));

@@ -1,4 +1,4 @@
-// Each format against a schema written from its documentation, on gradings with awkward content.
+// Compares each format with a schema written from its documentation, for gradings with awkward content.
 #include <gtest/gtest.h>
 
 #include "tests/coursework/grader/assignment.h"

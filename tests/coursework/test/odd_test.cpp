@@ -458,7 +458,7 @@ class OddPrograms : public testing::TestWithParam<const Odd*> {};
 TEST_P(OddPrograms, EarnAllOrAreToldWithoutBlameWhatCannotBeDecided) {
   const Odd& odd = *GetParam();
   const Assignment& whole = find_assignment("classic");
-  // public tests only: hidden ones ask the same questions at other states
+  // runs only public tests, because hidden tests ask the same questions at other states
   std::vector<coursework::Test> tests(whole.tests.begin(), whole.tests.end());
   for (coursework::Test& test : tests) test.points += test.hidden, test.hidden = 0;
   Assignment shown = whole;

@@ -90,7 +90,7 @@ TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
 TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
   for (const long may : {0, 5}) {
     if (may > 0 && (GetParam() == "bare" || geteuid() != 0))
-      continue;  // the sandbox states that only the filter and the clock bound it
+      continue;  // this sandbox limits processes only by the filter and the clock, as it states
     for (const long tries : {may, may + 1}) {
       Job starting = job("processes", std::to_string(tries));
       starting.limits.processes = may;
@@ -144,7 +144,7 @@ TEST(LeftRunning, WhatOutlivesItsParentIsSeen) {
 
 TEST_P(SandboxTest, NothingItWroteIsLeft) {
   if (GetParam() == "bare") return;
-  // unique to this sandbox and process: another sandbox's test may be writing at the same time
+  // the name is unique to this sandbox and process: another sandbox's test may be writing at the same time
   const std::string name = "litter-of-sandbox-test-" + std::string(GetParam()) + "-" + std::to_string(getpid());
   const auto own = open_folder("own");
   Job littering = job("litter", name);
@@ -210,7 +210,7 @@ TEST_P(SandboxTest, EnvironmentInputAndDescriptorsAreItsOwn) {
   EXPECT_TRUE(answers.starts_with("hello\n")) << answers;
   EXPECT_NE(answers.find("PATH=/usr/bin:/bin\n"), std::string::npos) << answers;
   EXPECT_EQ(answers.find("SECRET"), std::string::npos) << answers;
-  // 0 to 3 are inherited; the shell opens one to list them
+  // the shell inherits descriptors 0 to 3, and opens another one to list them
   Job listing = shell("cd /proc/self/fd; for n in *; do [ -e $n ] && echo $n >&3; done");
   listing.limits.processes = 1;
   EXPECT_EQ(sandbox().run(listing).answers, "0\n1\n2\n3\n");

@@ -558,7 +558,7 @@ TEST(Whole, ALargerOneThanAProgramIsIsRefused) {
   EXPECT_TRUE(refused.files.empty());
   ASSERT_EQ(refused.remarks.size(), 1u);
   EXPECT_EQ(refused.remarks.front().key, "program.size");
-  // other files are ignored if files are wanted by name
+  // if files are requested by name, all other files are ignored
   EXPECT_EQ(read_submission(here.path, {"more.h"}).files.size(), 1u);
 }
 

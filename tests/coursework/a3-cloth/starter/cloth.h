@@ -60,9 +60,9 @@ struct Wind {
   bool on = false;
   Vec3 direction;                              // unit vector in which the air moves
   double speed = 0;                            // m/s, on average
-  double gust = 0, frequency = 0, offset = 0;  // 1, Hz, rad: how the speed varies
+  double gust = 0, frequency = 0, offset = 0;  // relative amplitude, frequency (Hz), phase (rad) of the speed
   double density = 0;                          // of the air, kg/m^3
-  double coefficient = 0;                      // 1, of the pressure
+  double coefficient = 0;                      // of the pressure, dimensionless
 };
 
 /// Two triangles for each cell of the grid; they share the diagonal from (row, column + 1) to (row + 1, column).

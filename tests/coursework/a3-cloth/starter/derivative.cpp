@@ -1,4 +1,4 @@
-// Part 5: the whole right-hand side. Handout, "The derivative". Call your own functions of the other parts.
+// Part 5: the whole right-hand side. See "The derivative" in the hand-out. Call your own functions of the other parts.
 #include "cloth.h"
 
 State derivative(const Cloth& /*cloth*/, const State& state, double /*t*/) {

@@ -1,4 +1,4 @@
-// Part 3: forces of springs, gravity and drag. Handout, "The force of a spring" to "Gravity and drag".
+// Part 3: forces of springs, gravity and drag. See "The force of a spring" to "Gravity and drag" in the hand-out.
 #include "cloth.h"
 
 std::vector<Vec3> spring_forces(const std::vector<Spring>& /*springs*/, const std::vector<Vec3>& x) {

@@ -1,4 +1,4 @@
-// Part 1: the grid. Handout, "The grid".
+// Part 1: the grid. See "The grid" in the hand-out.
 #include "cloth.h"
 
 int index_of(const Grid& /*grid*/, int /*row*/, int /*column*/) {

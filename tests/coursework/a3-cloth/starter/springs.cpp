@@ -1,4 +1,4 @@
-// Part 2: the three families of springs. Handout, "Three families of springs".
+// Part 2: the three families of springs. See "Three families of springs" in the hand-out.
 #include "cloth.h"
 
 std::vector<Spring> structural(const Grid& /*grid*/, double /*k*/) {

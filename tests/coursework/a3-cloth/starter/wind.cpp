@@ -1,4 +1,4 @@
-// Part 4: wind. Handout, "Wind that comes and goes" to "Pressure on a triangle".
+// Part 4: wind. See "Wind that comes and goes" to "Pressure on a triangle" in the hand-out.
 #include "cloth.h"
 
 std::vector<Triangle> triangles(const Grid& /*grid*/) {

@@ -1,4 +1,5 @@
-// The position after contact: onto the surface, held back by friction, onto the surface again.
+// The position after contact: the particle moves onto the surface, is held back by friction, and moves onto the surface
+// again.
 #include "contact.h"
 
 namespace {

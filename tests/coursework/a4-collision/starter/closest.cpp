@@ -1,4 +1,4 @@
-// Part 1: where are the sphere and the plane? Handout, "Distance and normal", "A plane".
+// Part 1: where are the sphere and the plane? See "Distance and normal" and "A plane" in the hand-out.
 #include "contact.h"
 
 double gap(const Sphere& /*sphere*/, const Vec3& /*x*/) {

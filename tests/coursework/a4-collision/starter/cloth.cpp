@@ -1,4 +1,4 @@
-// Part 5: a cloth among spheres. Handout, "The cloth". spring_forces is given in springs.h.
+// Part 5: a cloth among spheres. See "The cloth" in the hand-out. spring_forces is given in springs.h.
 #include "contact.h"
 
 std::vector<Vec3> accelerations(const Cloth& /*cloth*/, const State& state) {

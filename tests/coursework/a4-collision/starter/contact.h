@@ -12,7 +12,7 @@ struct Sphere {
   Vec3 centre;             // m
   double radius = 0;       // m
   double margin = 0;       // m, half the thickness of the cloth
-  double friction = 0;     // Coulomb's mu, 1
+  double friction = 0;     // Coulomb's mu, dimensionless
   double restitution = 0;  // e, 0 to 1
 };
 
@@ -22,7 +22,7 @@ struct Plane {
   Vec3 point;           // m, somewhere on the face
   Vec3 normal;          // out of the solid, length 1
   double margin = 0;    // m
-  double friction = 0;  // Coulomb's mu, 1
+  double friction = 0;  // Coulomb's mu, dimensionless
 };
 
 // ---- closest.cpp

@@ -1,4 +1,4 @@
-// Part 3: the velocity after contact. Handout, "The velocity".
+// Part 3: the velocity after contact. See "The velocity" in the hand-out.
 #include "contact.h"
 
 Vec3 corrected_velocity(const Sphere& /*sphere*/, const Vec3& /*n*/, const Vec3& /*v*/) {

@@ -27,7 +27,7 @@ Vec3 normal(const Sphere& s, const Vec3& p) {
   return n;
 }
 
-// back from p along the normal by the gap
+// moves p back along the normal by the gap
 Vec3 nearest(const Sphere& s, const Vec3& p) { return p - gap(s, p) * normal(s, p); }
 
 double gap(const Plane& p, const Vec3& x) {
