@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Cheapest rule that supports the scene unchanged and has an observable order.
+/// Cheapest method that supports the scene without changes and has an observable order.
 std::string rule_for(const Scene& scene) {
   if (scene.model.find<Constraints>()) return "mysim/xpbd";
   return scene.model.first_order() ? "mysim/rk4" : "mysim/leapfrog";
@@ -46,7 +46,7 @@ std::string name_without(const std::vector<std::string>& out) {
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& y, const Trajectory& truth,
                                   Outcome& outcome) {
   Recorder recorder;
-  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // x' = f without its only term: nothing moves
+  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // x' = f without the model's only term: nothing moves
     outcome = {};
     double largest = 0;
     for (int i = 0; i < truth.frames() && truth.t[i] <= y.run.duration * (1 + 1e-9); ++i)

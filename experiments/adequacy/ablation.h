@@ -11,12 +11,12 @@
 
 namespace crosscheck {
 
-/// The truth of the full scene, with a rule and a step whose error is at most a fifth of the tolerance.
+/// The reference solution of the full scene, with a method and a step whose error is at most a fifth of the tolerance.
 struct ReferenceSolution {
   Method method;
   Run run;       // up to the end of the window
-  Truth truth;   // its samples extend at least as far
-  double floor;  // m, the error of the full model with this rule and step
+  Truth truth;   // samples extend at least to the end of `run`
+  double floor;  // m, error of the full model with this method and step
 };
 /// Throws Unsupported if no truth is known or no step is fine enough.
 ReferenceSolution reference_solution_of(const Scene& scene, double tolerance);
@@ -24,11 +24,11 @@ ReferenceSolution reference_solution_of(const Scene& scene, double tolerance);
 struct AblatedModel {
   std::string name;              // "full", "without bend springs", "without bend springs, drag"
   std::vector<std::string> out;  // ingredients left out
-  bool single;                   // one ingredient alone; otherwise a stage of the cumulative ablation
+  bool single;                   // true: one ingredient is removed alone; false: a stage of the cumulative ablation
   Scene scene;
   std::optional<double> error;  // m, largest RMS distance from the truth of the full scene; empty if the run failed
   Outcome outcome;
-  /// Force evaluations times springs: reproducible, unlike CPU time.
+  /// Force evaluations times the number of springs: reproducible, unlike CPU time.
   double cost() const {
     return static_cast<double>(outcome.evaluations) * static_cast<double>(springs_of(scene.model));
   }
@@ -46,8 +46,8 @@ std::optional<double> model_error(const Scene& model, const ReferenceSolution& r
                                   Outcome& outcome);
 
 /// The scene with a different start. Every free particle gets a smooth velocity of RMS `speed` (m/s) that vanishes at
-/// the pins: a wave as long as the scene, in a seeded direction and phase. In first-order scenes, positions change
-/// instead, by a tenth of their distance from the origin.
+/// the pins: a wave as long as the scene, whose direction and phase depend on `seed`. In first-order scenes, positions
+/// change instead, by a tenth of their distance from the origin.
 Scene unseen_start(const Scene& scene, double speed, unsigned seed);
 
 }  // namespace crosscheck

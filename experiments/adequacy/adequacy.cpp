@@ -27,7 +27,7 @@ double largest_speed(const Trajectory& t) {
   return largest;
 }
 
-/// Removes the ingredients in this order.
+/// Removes the named ingredients in this order.
 Scene without_all(Scene scene, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     for (const Ingredient& i : ingredients_of(scene))
@@ -38,8 +38,8 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
   return scene;
 }
 
-/// Error (m) of the smallest model from another start, relative to the full model with the same rule and step. If
-/// nothing can be left out: the smallest error of any removal. Empty if the full model itself fails.
+/// Error (m) of the smallest model from another start, relative to the full model with the same method and step. If
+/// nothing can be left out: the smallest error after any single removal. Empty if the full model itself fails.
 std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
                                    const std::vector<std::string>& out) {
   Recorder full;
@@ -148,7 +148,7 @@ void bending_on(const Request& request, TableSet& tables) {
 }  // namespace
 
 std::vector<Point> adequacy_points(const Request& request) {
-  std::vector<Point> points;  // the longest first, so that no core waits at the end
+  std::vector<Point> points;  // the most expensive points first, so that no core waits at the end
   for (const Scene& scene : request.scenes) {
     if (!cloth_grid_of(scene) || has_contact(scene.model)) continue;
     Request alone = request;

@@ -12,9 +12,9 @@
 namespace crosscheck {
 namespace {
 
-constexpr int material_points = 17;  // along each side: twice as fine as the coarsest grid
+constexpr int material_points = 17;  // along each side of the cloth: twice as fine as the coarsest grid
 
-/// Keeps what can come to rest: springs, gravity and fixed pins.
+/// Keeps only the terms with which a scene can come to rest: springs, gravity and fixed pins.
 Scene for_rest(Scene scene) {
   std::erase_if(scene.model.terms, [](const Term& t) {
     return std::holds_alternative<Wind>(t) || std::holds_alternative<Aerodynamics>(t) ||
@@ -36,7 +36,7 @@ std::optional<double> settle_and_sag(Scene& scene) {
   return depth.maxCoeff() - depth.minCoeff();
 }
 
-/// The stiffness factor for a wished sag, by the secant method in 1 / k, in which the sag is nearly linear.
+/// Stiffness factor that gives a desired sag, by the secant method in 1 / k (the sag is nearly linear in 1 / k).
 std::optional<double> factor_for(const Scene& at_rest, double wished, double sag_at_1) {
   double a = 1, of_a = sag_at_1, b = 1.1;
   for (int i = 0; i < 12; ++i) {
@@ -110,13 +110,14 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
     for (int i = 0; i < n; ++i)
       text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = {}\n", (i - 0.5) * d,
                           (i == n - 1 ? 0.05 : 0.1) * d * d);
-    // ten times the bend springs at every n, so that the relative extension is the same on every grid
+    // structural springs are ten times as stiff as the bend springs for every n, so that the relative extension is the
+    // same on every grid
     for (int i = 0; i + 1 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 1, 10 * bend);
     for (int i = 0; i + 2 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 2, bend);
     Scene scene = parse_scene(text, "bending");
-    // not from the flat state, which is unstable: bend springs do not resist the first turn
+    // does not start flat, because that state is unstable: bend springs do not resist the first turn
     for (int i = 2; i < n; ++i) scene.start.x(1, i) -= 0.1 * (i - 1) * (i - 1) * d * d;
     return scene;
   };
@@ -132,7 +133,7 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
       if (list.empty()) return list;
       continue;
     }
-    // bisection in the logarithm: stiffer lines droop less
+    // bisection in the logarithm of the stiffness: stiffer lines droop less
     const BendSprings& last = list.back();
     double low = last.stiffness, high = last.stiffness * std::pow(double(n - 1) / (last.n - 1), 7);
     std::optional<double> d;

@@ -13,7 +13,7 @@ struct GridResult {
   int n;                         // particles along the longer side
   std::optional<double> error;   // m, largest RMS distance from the finest grid in the window, at 17 x 17 points
   std::optional<double> sag;     // m, height of the highest point above the lowest at rest
-  std::optional<double> factor;  // 1, factor of all stiffnesses that gives the sag of the finest grid
+  std::optional<double> factor;  // 1, common factor of all stiffnesses that gives the sag of the finest grid
   Verdict verdict;
   long evaluations = 0, springs = 0;
 };
@@ -22,8 +22,8 @@ struct GridResult {
 /// a state of rest, computes it with fixed pins and without winds and drag.
 std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes);
 
-/// Exponent of y = a x^p, and its standard error, by least squares in the logarithms. Nothing for fewer than three
-/// points.
+/// Exponent of y = a x^p and its standard error, from a least-squares fit of log y. power_law() returns nullopt for
+/// fewer than three points.
 struct PowerLaw {
   double exponent, deviation;
 };
@@ -37,8 +37,8 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 /// that of the cloth is k d^4 kappa^4 / 32 per area. Hence k must grow as d^-4.
 struct BendSprings {
   int n;
-  double cells;      // 1, in the free length: n - 3/2
-  double stiffness;  // N/m, of a bend spring, for the same droop as with the first n
+  double cells;      // 1, number of cells in the free length: n - 3/2
+  double stiffness;  // N/m, of a bend spring, for the same droop as with the first grid
   double droop;      // m
 };
 std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes);

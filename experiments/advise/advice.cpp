@@ -30,7 +30,7 @@ struct Candidate {
   std::vector<Ingredient> out;
 };
 
-/// The smallest model that a scene file can express, with an error of at most half the tolerance.
+/// The smallest model that a scene file can express and whose error is at most half the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
     const ReferenceSolution y = reference_solution_of(scene, tolerance);
@@ -94,7 +94,7 @@ void caveats_of(Advice& a, const Trial& t) {
         fmt::format("the method follows a different law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
-/// The advice without trials. Throws CannotGuarantee if the truth does not permit one.
+/// The advice before any trials. Throws CannotGuarantee if the reference solution does not permit advice.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
   Advice a{.scene = scene,
@@ -104,7 +104,7 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
            .error_bar = path.error_bar(),
            .under_contact_rule = truth.under_contact_rule,
            .until = path.until()};
-  // a third: the run's own error may then be at least twice the error bar
+  // the error bar is at most a third of the tolerance: the run's own error may then be at least twice the error bar
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
         fmt::format("the truth is known to {:.2g} m only, but {:.2g} m is requested; request {:.2g} m or more",
@@ -117,7 +117,7 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   return a;
 }
 
-/// Runs a method, and returns the outcome and the distance from the truth, m.
+/// Runs a method, and returns the outcome and the distance from the reference solution (m).
 using Measured = std::function<std::pair<Outcome, double>(const Method&, const Scene&, const Setting&)>;
 
 Measured at_samples(const Truth& truth, double until) {
@@ -162,7 +162,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // stops at four times the best cost, beyond which no method is an alternative
+                      model.name);  // stops at four times the best cost, because no dearer method is an alternative
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -179,7 +179,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
   a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
   a.of_full.reset();
   if (a.trials[a.chosen].model == "full") return;
-  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // keeps the end of the list
+  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // `runs` keeps the last entries only
   if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
@@ -218,7 +218,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   Advice a = guarantee_of(scene, tolerance, path);
   std::vector<Candidate> models{{"full", scene, {}}};
   if (auto least = least_of(path.dense(), tolerance)) {
-    least->scene.samples = scene.samples;  // trials run as the written file will
+    least->scene.samples = scene.samples;  // the trials use the same samples as a run of the written file
     models.insert(models.begin(), std::move(*least));
   }
   // the truth has a larger error bar at widely spaced samples than at dense ones

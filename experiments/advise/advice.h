@@ -16,7 +16,8 @@
 
 namespace crosscheck {
 
-/// No trial meets the tolerance, or no reference can prove that one does. what(): the reason in one line.
+/// Thrown if no trial meets the tolerance, or no reference solution can prove that one does. what(): the reason in one
+/// line.
 struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -24,14 +25,14 @@ struct CannotGuarantee : std::runtime_error {
 struct Trial {
   std::string model;  // "full", or "without ..."
   std::string method;
-  double step;                  // s, as used; the mean for adaptive methods
-  double relative;              // relative tolerance of adaptive methods, else 0
+  double step;                  // s, as used by the run; the mean for adaptive methods
+  double relative;              // relative tolerance of adaptive methods, 0 for all others
   std::optional<double> error;  // m, largest RMS distance from the truth in the window; empty if the run failed
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, largest stable step by theory; empty if theory gives none
   bool accidental = false;      // within the tolerance, but a shorter step of the same method and model is not
-  bool meets = false;           // error + error bar of the truth are within the tolerance, and the run held to the end
+  bool meets = false;           // error + error bar of the truth are within the tolerance, and the run completed
   double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }
 };
 
@@ -40,28 +41,28 @@ struct Advice {
   double tolerance;  // m
   Tier tier;
   std::string truth;                   // description of its origin
-  double error_bar;                    // m, of the truth in the window
-  bool under_contact_rule;             // the tolerance bounds a difference, not an error
+  double error_bar;                    // m, of the truth within the window
+  bool under_contact_rule;             // true if the tolerance bounds a difference between methods, not an error
   double until;                        // s, end of the guarantee
   std::vector<Trial> trials = {};      // in the order of the search
   size_t chosen = 0;                   // index of a trial
-  std::vector<size_t> tied = {};       // other methods that meet it at the same cost, but less accurately
-  std::optional<size_t> second = {};   // the cheapest other method that meets it
+  std::vector<size_t> tied = {};       // other methods that meet the tolerance at the same cost, but less accurately
+  std::optional<size_t> second = {};   // index of the cheapest other method that meets the tolerance
   std::optional<size_t> of_full = {};  // the choice for the full scene, if a smaller model is cheaper
   StepBound bound = StepBound::none;   // reason why the step is not longer
   bool between_samples = false;        // the error between samples exceeded the tolerance
   std::vector<std::string> left_out = {};
   std::string toml = {};                // scene file that runs as advised
   double checked = 0;                   // m, error of a run of that file
-  std::vector<WishResult> wishes = {};  // wishes, with their values in that run
+  std::vector<WishResult> wishes = {};  // the scene's wishes, with the values reached in that run
   std::vector<std::string> caveats = {};
 };
 
 /// Searches the full scene, and the smallest model whose own error is at most half the tolerance (StepSearch). Chooses
 /// with recommend(), as the report does for 1 % of the motion. The search uses the errors at the samples. The chosen
-/// run is then repeated with its error observed after every step (dense_truth.h); if that exceeds the tolerance, the
-/// search is repeated with such errors. Throws CannotGuarantee if no truth is known, its error bar exceeds a third of
-/// the tolerance, the tolerance exceeds the scene's motion, or no method meets it.
+/// run is then repeated, and its error observed after every step (dense_truth.h); if that exceeds the tolerance, the
+/// search is repeated with errors observed in this way. Throws CannotGuarantee if no truth is known, its error bar
+/// exceeds a third of the tolerance, the tolerance exceeds the scene's motion, or no method meets the tolerance.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 }  // namespace crosscheck

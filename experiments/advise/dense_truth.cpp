@@ -14,7 +14,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double samples_per_period = 8;
-constexpr double most_numbers = 6e7;  // samples times coordinates: both routes of a converged truth then take 2 GB
+constexpr double most_numbers = 6e7;  // samples times coordinates: both solutions of a converged truth then take 2 GB
 
 double fastest_gust(const WindSignal& wind_signal) {
   double omega = 0;
@@ -32,7 +32,8 @@ double first_spacing(const Scene& scene) {
   return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Dense samples per sample of the scene, at that spacing. Throws CannotGuarantee if they do not fit in memory.
+/// Number of dense samples with this spacing per sample of the scene. Throws CannotGuarantee if they do not fit in
+/// memory.
 int samples_at(const Scene& scene, double spacing) {
   const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
@@ -83,7 +84,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
       throw CannotGuarantee(fmt::format(
           "between its samples the truth is known to {:.2g} m only, but {:.2g} m is requested", bar_, tolerance));
   }
-  // an eighth of a period has a phase of 0.79
+  // in an eighth of a period the phase advances by 0.79
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }
@@ -114,9 +115,9 @@ Points DenseTruth::free_path(int sample, double t) const {
   return state.x + s * state.v + s * s / 2 * a;
 }
 
-/// Cubic between two samples with the velocities at both (Hermite); linear in a first-order scene, which has no
-/// velocities. A particle that enters a solid on its free path follows this path up to the impact, and then the free
-/// path back from the later sample, so that nothing is interpolated across the impact.
+/// Cubic interpolation between two samples, using the velocities at both (Hermite); linear in a first-order scene,
+/// which has no velocities. A particle that enters a solid on its free path follows this path up to the impact, and
+/// then the free path traced back from the later sample, so that nothing is interpolated across the impact.
 Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;
@@ -141,14 +142,14 @@ Points DenseTruth::interpolated(int from, int to, double t) const {
   return x;
 }
 
-/// True if a path leads from outside all solids, by more than rounding error, into one of them.
+/// True if a path starts outside all solids, by more than rounding error, and ends in one of them.
 bool DenseTruth::runs_in(double t, const Vec3& x, double t_end, const Vec3& end) const {
   const std::vector<Surface> surfaces = surfaces_of(dense_.model);
   return clearance_from(surfaces, t, x) > 1e-9 * dense_.size() && clearance_from(surfaces, t_end, end) < 0;
 }
 
-/// Doubling the spacing multiplies the error of a smooth path by 16; a factor of 8 is assumed. With contact, forces can
-/// jump anywhere between two samples, and the midpoint may show only half of the error.
+/// Interpolation error, m. Doubling the spacing multiplies the error of a smooth path by 16; a factor of 8 is assumed.
+/// With contact, forces can jump anywhere between two samples, and the midpoint may show only half of the error.
 double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;

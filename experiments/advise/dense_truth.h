@@ -1,4 +1,4 @@
-// The truth of a scene at any time, and the error of a run including the times between samples.
+// The reference solution of a scene at any time, and the error of a run, including the times between samples.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace crosscheck {
 
-/// Angular frequency of the fastest vibration in the scene, rad/s: of its springs at the start, of the prescribed
-/// motion of pins and spheres, and of gusts. 0 if nothing vibrates.
+/// Angular frequency of the fastest vibration in the scene, rad/s, among its springs at the start, the prescribed
+/// motion of pins and spheres, and gusts. 0 if nothing vibrates.
 double fastest_motion(const Scene& scene);
 
 /// The truth at any time up to the end of the guarantee. A closed form is evaluated directly. Converged truth is
@@ -24,10 +24,10 @@ class DenseTruth {
   DenseTruth(const Scene& scene, double tolerance);
 
   const Truth& truth() const { return truth_; }
-  /// The scene with the samples of the dense truth.
+  /// The scene, sampled at the times of the dense truth.
   const Scene& dense() const { return dense_; }
   double until() const { return until_; }    // s
-  double error_bar() const { return bar_; }  // m, of the truth, including the interpolation error
+  double error_bar() const { return bar_; }  // m, error bar of the truth, including the interpolation error
   double motion() const { return motion_; }  // m, largest RMS distance from the start
   /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. No error changes by more
   /// than 0.2 % of its maximum in that time.
@@ -44,12 +44,13 @@ class DenseTruth {
   Scene dense_;
   std::optional<ExactSolution> exact_;
   Truth truth_;
-  std::vector<char> impact_;  // true if a particle hits a sphere between a sample and the next
+  std::vector<char> impact_;  // true if any particle hits a sphere between a sample and the next
   double until_ = 0, bar_ = 0, motion_ = 0, time_resolution_ = 0;
 };
 
 /// The scene's own run, observed at the time resolution of the truth. An adaptive method is observed on the grid of the
-/// run's step, which does not affect its steps. With contact that grid would limit them, so the run stays unchanged.
+/// run's step, which does not affect its steps. With contact the grid would limit the steps, so the run stays
+/// unchanged.
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
 /// Keeps the largest RMS distance of a run from the truth. Skips steps that follow the previous one within the time

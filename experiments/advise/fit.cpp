@@ -18,8 +18,8 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of parameters that can be fitted, by the end of their path, with their search range in units of the scene:
-/// mass (or 1) over time to the power `times`.
+/// Kinds of parameters that can be fitted. `ending`: last keys of the parameter's path. `low`, `high`: search range, in
+/// units of the scene: mass (or 1 without `mass`) divided by time to the power `times`.
 struct Kind {
   std::string_view ending, name, unit;
   double low, high;
@@ -49,7 +49,7 @@ struct Objective {
   Measurement measure;
 };
 
-/// Desired measures (experiments/measures.h): section [wish] of the scene file.
+/// Desired values of measures (experiments/measures.h): section [wish] of the scene file.
 struct Wish {
   std::optional<double> sag, period, settle_time;  // m, s, s
   std::optional<double> max_stretch;               // 1
@@ -104,7 +104,7 @@ class Fit {
       if (!kind)
         throw InputError(
             fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
-      // anisotropy depends on the ratio between families of springs, so that each family needs its own value
+      // anisotropy depends on the ratio of the stiffnesses of spring families, so that each family needs its own value
       const std::string family = path.substr(path.rfind('.') + 1),
                         name_of_value = file_.has("wish.anisotropy") && kind->ending.starts_with("stiffness.")
                                             ? fmt::format("{} stiffness", family)
@@ -192,7 +192,7 @@ class Fit {
     }
   }
 
-  /// log(measured / wished) of each wish; nothing if a wish cannot be measured.
+  /// log(measured / wished) of each wish; nullopt if a wish cannot be measured.
   std::optional<Eigen::VectorXd> residual(const Eigen::VectorXd& p, MeasuredBy by) const {
     const Scene scene = scene_at(p);
     Eigen::VectorXd r(size());
@@ -204,9 +204,9 @@ class Fit {
     return r;
   }
 
-  /// The best point of a grid with one value per decade, or per two decades for several unknowns. A single unknown is
-  /// taken from the first decade in which the measure crosses the wish: a very small and a very large drag may give the
-  /// same settling time.
+  /// The best point of a grid with one value per decade, or one per two decades for several unknowns. A single unknown
+  /// is taken from the first decade in which the measure crosses the wish, because a very small and a very large drag
+  /// may give the same settling time.
   Eigen::VectorXd coarse() const {
     const double pace = std::log(size() == 1 ? 10. : 100.);
     std::optional<Eigen::VectorXd> best;
@@ -241,10 +241,10 @@ class Fit {
     return *best;
   }
 
-  /// A damped Gauss-Newton step that reduces the residual; nothing if there is none.
+  /// A damped Gauss-Newton step that reduces the residual, or nullopt if no such step is found.
   std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> better(const Eigen::VectorXd& p,
                                                                     const Eigen::VectorXd& r) const {
-    constexpr double nudge = 0.02;  // above the noise of the measures
+    constexpr double nudge = 0.02;  // larger than the noise of the measures
     Eigen::MatrixXd slope(size(), size());
     for (int j = 0; j < size(); ++j) {
       Eigen::VectorXd moved = p;
@@ -266,7 +266,7 @@ class Fit {
   TomlDocument file_;
   std::vector<Unknown> unknowns_;
   std::vector<const Kind*> kinds_;
-  Eigen::VectorXd units_;  // an unknown is its unit times exp(parameter)
+  Eigen::VectorXd units_;  // value of an unknown = its unit times exp(parameter)
   std::vector<Objective> objectives_;
 };
 
@@ -294,7 +294,7 @@ std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file) {
     if (!follows_step || i == most_halvings) break;
     file.step = time_grid(default_run(file)).h / 2;
   }
-  if (follows_step) {  // no step helps: restores the given one
+  if (follows_step) {  // shorter steps do not help: restores the given step
     file.step = given.step;
     for (size_t w = 0; w < wishes.size(); ++w) wishes[w].own = measures[w](file, MeasuredBy::own_method).value_or(NAN);
   }

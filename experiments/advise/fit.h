@@ -10,11 +10,11 @@
 
 namespace crosscheck {
 
-/// A parameter written as "fit" in the file. All parameters of one kind share one value: every mass, every stiffness. A
-/// wish for anisotropy gives each family of springs its own stiffness.
+/// A parameter written as "fit" in the file. All parameters of one kind (such as all masses) share one value. If the
+/// file wishes for anisotropy, each family of springs has its own stiffness.
 struct Unknown {
   std::string name, unit;          // "stiffness", "N/m"
-  std::vector<std::string> paths;  // its occurrences in the file
+  std::vector<std::string> paths;  // key paths at which the parameter occurs in the file
   double value = 0;
 };
 
@@ -22,13 +22,14 @@ struct WishResult {
   static constexpr double tolerance = 5e-4;  // 1, largest relative difference between `own` and `reached`
   std::string name, unit;
   double wished;
-  double reached;    // value of the scene, converged in the step
+  double reached;    // value in the scene, converged in the step
   double own = NAN;  // value in a run of the file, with its method and step
   bool kept() const { return std::abs(own - reached) <= tolerance * std::abs(reached); }
 };
 
-/// Measures the wishes in `scene`, and in `file`, the scene that will be run, with its own method. Halves the step of
-/// `file` until WishResult::kept holds or a shorter step no longer helps. Leaves out wishes that cannot be measured.
+/// Measures the wishes converged in `scene`, and with the scene's own method in `file`, the scene that will be run.
+/// Halves the step of `file` until WishResult::kept holds or a shorter step no longer helps. Leaves out wishes that
+/// cannot be measured.
 std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file);
 
 struct FitResult {
@@ -43,9 +44,9 @@ bool has_unknowns(std::string_view text, const std::string& name);
 
 /// Finds the values by simulation: first on a coarse grid over decades, then by damped Gauss-Newton steps in the
 /// logarithms of parameters and measures, until each wish is met within 0.02 %. The step is at most half of leapfrog's
-/// limit and, if possible, so short that a run of the file keeps its wishes. Throws InputError if the numbers of wishes
-/// and of values differ, or a value cannot be fitted. Throws CannotGuarantee if a wish cannot be measured or is not met
-/// within 2 %.
+/// limit and, if possible, so short that a run of the file keeps its wishes. Throws InputError if there are more or
+/// fewer wishes than values, or a value cannot be fitted. Throws CannotGuarantee if a wish cannot be measured or is not
+/// met within 2 %.
 FitResult fit_to_wishes(std::string_view text, const std::string& name);
 
 }  // namespace crosscheck

@@ -6,7 +6,7 @@
 namespace crosscheck {
 namespace {
 
-// fixed steps in units of 2 / omega: just below each rule's limit, and shorter
+// fixed steps in units of 2 / omega: one just below the rule's limit, and shorter ones
 Peer odeint_rk4() { return {"odeint/rk4", {1.35, 1, 0.5}}; }
 Peer odeint_dopri5() { return {"odeint/dopri5", {1e-4, 1e-6, 1e-7}}; }
 Peer arkode() { return {"sundials/arkode+order=4", {1e-3, 1e-5, 1e-7}}; }

@@ -10,7 +10,7 @@ struct BenchSuite {
   struct PeerCloth {
     int side;  // particles
     std::vector<Peer> peers;
-    Scene (*of)(int side) = hooke;  // one of the functions of experiments/scenes/cloths.h
+    Scene (*of)(int side) = hooke;  // generator of the cloth, from experiments/scenes/cloths.h
     Scene scene() const { return of(side); }
     static Scene hooke(int side) { return hanging_cloth(side); }
   };
@@ -24,16 +24,17 @@ struct BenchSuite {
   ThreadsOptions threads;
 };
 
-/// quick: within 100 s on a quiet machine of two cores; full: the largest cloth, and more peers on the others.
-/// `beside`: further peers for cloths of 16 and 32 particles a side. Throws InputError for unknown methods.
+/// `quick` suite: within 100 s on a quiet machine with two cores; full suite: also the largest cloth, and more peers on
+/// the others. `beside`: additional peers, run on cloths of 16 and 32 particles a side. Throws InputError for unknown
+/// methods.
 BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
 struct BenchResult {
   std::vector<BenchRow> rows;
-  std::vector<std::string> notes;  // omissions, with their reasons
+  std::vector<std::string> notes;  // omissions and their reasons
 };
-/// Measures threads first. Then binds the process to one core permanently, and measures kernels, scenes, peers at the
-/// same error and at the same step, and the implicit step.
+/// Measures threads first. Then binds the process to one core permanently, and measures kernels, scenes, the implicit
+/// step, and peers at the same error and at the same step.
 BenchResult bench(const BenchSuite& suite, const LockPatience& patience);
 
 }  // namespace crosscheck

@@ -116,7 +116,7 @@ struct FallingCloth {
   }
 };
 
-/// mysim's solver with a given instruction set, which is chosen when the solver is created.
+/// mysim's solver. Its instruction set is chosen when the solver is created.
 struct MysimStep {
   System system;
   ImplicitStep step;

@@ -21,7 +21,7 @@ class FactorisedStep {
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// Indices of a 3 x 3 block of two particles among the stored entries of the lower triangle; -1 if not stored.
+  /// Positions in the array of stored entries (lower triangle) of the 3 x 3 block of two particles; -1 if not stored.
   struct Places {
     int number[3][3];
   };
@@ -31,8 +31,8 @@ class FactorisedStep {
   Eigen::ArrayXd mass_;
   Vec3 gravity_;
   double h_, gamma_;
-  std::vector<int> first_;              // row of each particle; -1 for pins
-  std::vector<Places> diagonal_, off_;  // by particle; by spring
+  std::vector<int> first_;              // first row of each particle in the matrix; -1 for pins
+  std::vector<Places> diagonal_, off_;  // for each particle; for each spring
   Sparse matrix_;
   Eigen::VectorXd right_;
   Eigen::SimplicialLDLT<Sparse> solver_;

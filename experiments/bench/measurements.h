@@ -1,4 +1,4 @@
-// The measurements of the bench. Each appends rows: the times of a peer, the times of mysim, and their ratio.
+// Measurements of the bench. Each appends rows with the times of a peer, the times of mysim, and their ratio.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,10 @@ struct BenchRecord {
   const LockPatience& patience;
   Progress& progress;
   std::vector<BenchRow> rows = {};
-  std::vector<std::string> notes = {};  // omissions, with their reasons
+  std::vector<std::string> notes = {};  // omissions and their reasons
 };
 
-/// Sets both times and their ratio, from the seconds of each round times a factor.
+/// Sets both times and their ratio, from the seconds of each round multiplied by the respective factor.
 void set_times(BenchRow& row, const std::vector<double>& peer, const std::vector<double>& mysim, double peer_factor = 1,
                double factor = 1);
 
@@ -39,12 +39,12 @@ void measure_kernels(int side, const MicrobenchmarkOptions& options, BenchRecord
 /// grids, the fused step, which is a whole step.
 void measure_scenes(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options, BenchRecord& record);
 
-/// A method to compare with, and its settings: tolerances for adaptive methods, else steps in units of leapfrog's
-/// stability limit 2 / omega, with the scene's fastest vibration omega.
+/// A method to compare mysim with, and its settings: tolerances for adaptive methods, otherwise steps in units of
+/// leapfrog's stability limit 2 / omega, where omega belongs to the scene's fastest vibration.
 struct Peer {
   std::string method;
   std::vector<double> settings;
-  bool other_model = false;  // does not converge to the scene's springs
+  bool other_model = false;  // converges to a different model, not to that of the scene's springs
 };
 
 struct EqualErrorOptions {
@@ -64,9 +64,9 @@ struct SameStepOptions {
   double duration = 0.2;  // s, of both runs
   TimedRunOptions turns;
 };
-/// Compares Bullet's explicit world with mysim's symplectic Euler. The rule is the same, so that only the time of a
-/// step differs. The first cloth has three stiffnesses, which need Crosscheck's own force class in Bullet (without
-/// faces); the second has two and uses Bullet's own spring force.
+/// Compares Bullet's explicit world with mysim's symplectic Euler. The integrators are the same, so that only the time
+/// of a step differs. The first cloth has three stiffnesses, for which Bullet needs Crosscheck's own force class
+/// (without faces); the second has two and uses Bullet's own spring force.
 void measure_same_step(const SameStepOptions& options, BenchRecord& record);
 
 struct ImplicitStepOptions {
@@ -74,8 +74,8 @@ struct ImplicitStepOptions {
   std::vector<double> rates;  // steps per second
   MicrobenchmarkOptions microbenchmarks;
 };
-/// Compares one step of `implicit-euler+linear` with one by Eigen's SimplicialLDLT (implicit_step.h), from a cloth that
-/// has fallen for half a second.
+/// Compares one step of `implicit-euler+linear` with one step of Eigen's SimplicialLDLT (implicit_step.h), starting
+/// from a cloth that has fallen for half a second.
 void measure_implicit_steps(const ImplicitStepOptions& options, BenchRecord& record);
 
 struct ThreadsOptions {
@@ -83,9 +83,9 @@ struct ThreadsOptions {
   TimedRunOptions turns;
 };
 /// Wall time of a leapfrog step with one thread, and with +threads=2, which uses only one thread on small cloths.
-/// `share` is the fraction of the cores' time that the threads got. Because waiting threads spin, the rest went to
-/// other processes, and the ratio underestimates the machine. A note says so below 95 %, or if there is only one core.
-/// Call it before the process is bound to a core.
+/// `share` is the fraction of the cores' time that the threads got. Waiting threads spin, so the rest of the time went
+/// to other processes, and the ratio underestimates the machine. Adds a note if the share is below 95 %, or there is
+/// only one core. Call it before the process is bound to a core.
 void measure_threads(const ThreadsOptions& options, BenchRecord& record);
 
 }  // namespace crosscheck

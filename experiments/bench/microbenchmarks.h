@@ -21,7 +21,7 @@ struct MicrobenchmarkOptions {
 
 /// CPU time of one run of each piece, s, by name and round. A round runs all pieces one after the other, so that a slow
 /// spell of the machine affects all of them and ratios within a round stay precise. Waits until no other Crosscheck
-/// process measures on this machine (experiments/timing/machine.h). Names must be unique.
+/// process is measuring on this machine (experiments/timing/machine.h). Names must be unique.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& options,
                                                                const LockPatience& patience);

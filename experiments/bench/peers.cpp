@@ -15,21 +15,21 @@
 namespace crosscheck {
 namespace {
 
-/// A method of mysim whose step is shortened until it is accurate enough. first: longest step (in 2 / omega, below the
-/// rule's limit); ratio: of consecutive steps.
+/// A method of mysim whose step is shortened until it is accurate enough. `first`: longest step in units of 2 / omega,
+/// below the rule's limit; `ratio`: each step divided by the previous one.
 struct MysimMethod {
   const char* method;
   double first, ratio;
 };
-constexpr double fine = 0.8409, coarse = 0.5;  // fine: 2^(-1/4); coarse: for a rule that is slow and not the best one
+constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4), and 1/2 for a slow rule that is never the best one
 // the most efficient first: a later method stops when an earlier one is more accurate with as many evaluations
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
                                        {"mysim/rk4", 1.35, coarse}};
-constexpr double longest = 60;           // s: external programs that would take longer are left out
-constexpr double shortest = 0.05;        // shortest step of a method over its first
-constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest step; later halved
+constexpr double longest = 60;           // s; leaves out external programs that would take longer
+constexpr double shortest = 0.05;        // a method's shortest step divided by its first one
+constexpr double truth_step = 1.36 / 8;  // in units of 2 / omega: an eighth of suzuki4's largest step; later halved
 
 struct PeerRun {
   Method method;
@@ -38,7 +38,7 @@ struct PeerRun {
   double setting;               // s, or a tolerance
   std::optional<double> error;  // m, RMS over the particles at the end; empty if the run failed
   bool other_model = false;
-  double projected = 0;  // s of predicted CPU time, for a run that was left out as too long; else 0
+  double projected = 0;  // predicted CPU time (s) of a run that was left out as too long; otherwise 0
   bool ok() const { return error.has_value(); }
 };
 
@@ -55,13 +55,13 @@ class PeerRuns {
   double error_bar() const { return bar_; }
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
-  /// Runs of mysim, for each method from long steps to short ones. A method stops when a run's error is at most
-  /// `wanted` (m), when it takes more than `most` evaluations, or when another method has been more accurate with as
-  /// few. Includes single precision if the cloth is wide enough.
+  /// Runs of mysim, for each method from long steps to short ones. A method stops when the error of a run is at most
+  /// `wanted` (m), when it takes more than `most` evaluations, or when another method has been more accurate without
+  /// needing more evaluations. Includes single precision if the cloth is wide enough.
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
-  /// `projects`: runs the first fiftieth to predict whether the whole run would take too long.
+  /// `projects`: first runs a fiftieth of the duration to predict whether the whole run would take too long.
   PeerRun done(const Method& method, double setting, bool projects = false) const;
   Points end_of(double part) const {
     Recorder recorder;
@@ -128,8 +128,8 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio. Returns false if there is
-/// none.
+/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio. Returns false if no run is
+/// that accurate.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {
@@ -151,7 +151,7 @@ bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>&
 }  // namespace
 
 int work_of(const EqualErrorOptions& options) {
-  size_t work = 2 + std::size(own_methods);  // 2: the truth, and the timing in turns
+  size_t work = 2 + std::size(own_methods);  // 2: the truth, and the final timing of all runs in turns
   for (const Peer& peer : options.peers) work += peer.settings.size();
   return static_cast<int>(work);
 }
@@ -167,8 +167,8 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
     if (refused && std::ranges::count(record.notes, note) == 0) record.notes.push_back(note);
     return refused;
   });
-  double wanted = INFINITY;  // m: the smallest error above the error bar
-  long most = 0;             // evaluations of mysim that take about as long as a peer's slowest run
+  double wanted = INFINITY;  // m, smallest error of a peer that exceeds the error bar
+  long most = 0;             // number of mysim's evaluations that take about as long as the slowest run of a peer
   for (const PeerRun& run : peers) {
     if (run.ok() && *run.error > 2 * bar) wanted = std::min(wanted, *run.error - 2 * bar);
     most = std::max(most, 5 * run.outcome.evaluations);

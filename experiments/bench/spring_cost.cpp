@@ -17,7 +17,7 @@ using simd::InstructionSet;
 
 constexpr auto double_precision = "double", single_precision = "single";
 
-/// With a wave, so that every spring exerts a force.
+/// A cloth with a wave, so that every spring exerts a force.
 Scene waving_cloth(int n) {
   Scene scene = hanging_cloth(n);
   for (int i = 0; i < scene.start.x.cols(); ++i)

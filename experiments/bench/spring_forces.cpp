@@ -26,7 +26,7 @@ BenchmarkFunction naive_loop(const Scene& scene) {
       work->f[s.a] += force;
       work->f[s.b] -= force;
     }
-    // prevents the compiler from removing the work
+    // prevents the compiler from optimising the work away
     asm volatile("" : : "r"(work->f.data()) : "memory");
   };
 }
@@ -73,7 +73,7 @@ std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::Instructio
   auto work = std::make_shared<Work>(Work{simd::ClothGridMemory<T>(*topology), {}, {}, {}});
   const double h = scene.step, m = scene.model.particles.mass[0];
   const auto all = [&](double value) { return work->body.spread(Eigen::ArrayXd::Constant(1, value)); };
-  // strongly damped, so that the cloth comes to rest, which does not affect the cost
+  // strong damping, so that the cloth comes to rest; this does not affect the cost
   work->damping = all(0.1), work->inverse_mass_dt = all(h / m), work->dt = all(h);
   work->body.put(scene.start.x, scene.start.v);
   simd::ClothGrid<T>& grid = work->body.grid();

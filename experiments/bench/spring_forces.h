@@ -9,16 +9,16 @@
 
 namespace crosscheck {
 
-/// Does the work once per call, on the same memory each time.
+/// Does the same work in each call, on the same memory.
 using BenchmarkFunction = std::function<void()>;
 
 BenchmarkFunction naive_loop(const Scene& scene);
-/// The reference implementation of the term (mysim/terms/springs.h).
+/// The term's own implementation (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);
 /// The engine's kernel for any spring graph. The machine must support the instruction set.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);
-/// A whole step of a cloth including kick and drift. T: double or float; `fast` as in simd::kernel(). Nothing if the
-/// springs do not form a regular grid, or the grid is too narrow.
+/// A whole step of a cloth, including kick and drift. T: double or float; `fast`: as in simd::kernel(). Returns nullopt
+/// if the springs do not form a regular grid, or the grid is too narrow.
 template <class T>
 std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::InstructionSet isa, bool fast);
 

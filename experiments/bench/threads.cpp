@@ -13,8 +13,8 @@ namespace crosscheck {
 namespace {
 
 constexpr auto rule = "mysim/leapfrog";
-/// Below this share, the missing time matters as much as the loss of two threads that are only 1.9 times as fast as
-/// one.
+/// Below this share, the time that the threads did not get matters as much as the loss of two threads that are only 1.9
+/// times as fast as one.
 constexpr double nearly_all = 0.95;
 
 double cpu_of_all_threads() {
@@ -40,7 +40,7 @@ class TimedCloth {
     return wall / static_cast<double>(steps);
   }
   int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
-  /// Share of their cores' time that the threads got.
+  /// Fraction of their cores' time that the threads got.
   double share() const { return timing_of(share_).median; }
 
  private:
