@@ -9,8 +9,8 @@
 namespace crosscheck {
 
 /// The largest distance of a particle between two runs, relative to the bound (m) of each sample, at the sample with
-/// the largest ratio. Ignores all samples from the first whose bound exceeds a hundredth of `lengths` (m), because the
-/// motion is unpredictable from there. Throws CannotBeAsked if that is the first sample.
+/// the largest ratio. Ignores the first sample whose bound exceeds a hundredth of `lengths` (m) and all later ones,
+/// because the motion is unpredictable from there. Throws CannotBeAsked if that happens at the first sample.
 RelationResult farthest(std::string what, const Trajectory& a, const Trajectory& b, const std::vector<double>& bound,
                         double lengths);
 
@@ -21,10 +21,10 @@ std::vector<double> distances(const Trajectory& a, const Trajectory& b);
 
 std::vector<double> sum_of(std::vector<double> a, const std::vector<double>& b);
 
-/// The run with its step halved `times` times.
+/// The run with its step halved the given number of times.
 const Trajectory& halved(Subject& subject, const Scene& scene, int times);
 
-/// Rounding error up to each sample of the run with its step halved `times` times, m.
+/// Rounding error (m) up to each sample of the run with its step halved the given number of times.
 std::vector<double> noise_at(Subject& subject, Scene scene, int times);
 
 /// True for methods that follow run.tolerance, and for external programs that chose their own steps when observed.
@@ -37,7 +37,7 @@ int order_of(const Method& method);
 struct Outside {
   bool pins = false, bending = false, gravity = false, wind = false, air = false, drag = false, dashpots = false,
        contact = false, constraints = false, field = false,
-       changing = false;  // time-dependent: moving pins or surfaces, gusts
+       changing = false;  // true if anything depends on time: moving pins or surfaces, gusts
 };
 Outside outside_of(const Scene& scene);
 

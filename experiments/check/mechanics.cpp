@@ -31,7 +31,7 @@ void require_velocities(const Trajectory& path) {
 
 Vec3 start_velocity_of_the_centre(const Scene& scene) { return centre_of_mass(scene, scene.start.v); }
 
-/// Final state of a damped run, and the largest movement in its last quarter, m.
+/// Final positions in a damped run, and the largest movement (m) in its last quarter.
 struct Rest {
   Points x;
   double unsettled;
@@ -69,13 +69,14 @@ RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   RelationResult relative = over_time("motion of a particle relative to the others", "m", path, noise, [&](int i) {
     return largest_column(((path.x[i] - start).colwise() - fallen(i)).eval());
   });
-  // a rule of order two falls g t^2 / 2 exactly, one of order one g t (t + h) / 2 or g t (t - h) / 2; any other rule
-  // lies in between
+  // a rule of order two falls by exactly g t^2 / 2, a rule of order one by g t (t + h) / 2 or g t (t - h) / 2; any
+  // other rule lies in between
   const Method& method = subject.method();
   const bool known = stepper_of(method) != nullptr;
   const double h = chooses_steps(method) || (known && order_of(method) > 1) ? 0 : run.outcome.step;
-  // the fall is g t^2 / 2 + g h (a t + b h) / 2. A known rule of order one has a = 1 or -1, and b = 0. Otherwise a and
-  // b, at most 1, are taken from the first and last sample, whose rounding adds to that of the others
+  // the fall is g t^2 / 2 + g h (a t + b h) / 2. A known rule of order one has a = 1 or -1, and b = 0. For other rules
+  // a and b, both between -1 and 1, are taken from the first and last sample, so that their rounding errors add to
+  // those of the other samples
   const int last = path.frames() - 1;
   const auto late = [&](int i) {  // in units of g h / 2
     const Vec3 off = fallen(i) - v * path.t[i] - g * (path.t[i] * path.t[i] / 2);
@@ -107,7 +108,7 @@ RelationResult no_force_no_motion(Subject& subject, const Scene& scene, unsigned
 RelationResult momentum_kept(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& path = subject.run(scene).path;
   const Vec3 from = centre_of_mass(scene, scene.start.x), v = start_velocity_of_the_centre(scene);
-  // momentum over mass, measured by positions, so that engines without velocities can be checked too
+  // the momentum divided by the mass is measured by positions, so that engines without velocities can be checked too
   return over_time("the centre of mass against uniform motion", "m", path, subject.noise_with_unsolved(scene).x,
                    [&](int i) { return (centre_of_mass(scene, path.x[i]) - from - v * path.t[i]).norm(); });
 }
@@ -132,7 +133,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // bound m (x' x v + x x v') at the largest distance and speed, with the step halved `times` times
+  // bounds m (x' x v + x x v') by the largest distance and speed. `times`: number of halvings of the step
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);
@@ -142,7 +143,8 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
     return bound;
   };
   const Stepper* rule = stepper_of(subject.method());
-  // rules made of drifts, and kicks along central forces, conserve it; other rules change it by an error of their order
+  // Rules that consist of drifts and of kicks along central forces conserve angular momentum; other rules change it by
+  // an error of their order.
   if (chooses_steps(subject.method()) || (rule && rule->symplectic))
     return over_time("change of angular momentum", "kg m^2/s", path, rounding(0), [&](int i) { return whole[i]; });
   const std::vector<double> half = changes_in(halved(subject, scene, 1));
@@ -156,8 +158,8 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   };
   RelationResult found = shrinks("half", half, "the whole", whole, rounding(1));
   if (found.holds()) return found;
-  // a damping rule at a coarse step has removed most of a vibration, so that the change is near its limit: for six
-  // particles, consecutive halvings multiplied it by 0.68, 0.59, 0.55 and 0.52
+  // At a coarse step, a damping rule has removed most of a vibration, so that the change is near its limit: in a case
+  // with six particles, consecutive halvings of the step multiplied the change by 0.68, 0.59, 0.55 and 0.52.
   RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half", half, rounding(2));
   return finer.ratio() < found.ratio() ? finer : found;
 }
@@ -167,7 +169,7 @@ namespace {
 /// Drift of the energy in a run, and the oscillation and rounding that can hide a drift, J.
 struct Drift {
   double change, hidden;
-  std::vector<double> changes, times;  // mean energy of each tenth of the run relative to the first, J; s
+  std::vector<double> changes, times;  // J, mean energy of each tenth of the run minus that of the first; s
 };
 
 Drift drift_of(Subject& subject, const Scene& scene, const Run& settings) {
@@ -211,8 +213,8 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   if (found.holds()) return found;
   if (!method.adaptive && chooses_steps(method))
     throw CannotBeAsked("its energy drifts, and as it chooses its own steps, no order of the drift can be seen");
-  // rules that are not symplectic gain or lose energy by an error of at least their order; half a power is left for
-  // terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
+  // rules that are not symplectic gain or lose energy by an error of at least their order; the allowance of half a
+  // power covers terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
   const double part = method.adaptive ? 0.5 : std::exp2(0.5 - order_of(method));
   const auto finer = [&](int times) {
     Run fine = run;
@@ -237,7 +239,7 @@ RelationResult pins_on_their_path(Subject& subject, const Scene& scene, unsigned
   const SubjectRun& run = subject.run(scene);
   const Trajectory& path = run.path;
   const Particles& p = scene.model.particles;
-  // positions of pins are recomputed or rounded in every step, and their errors do not grow
+  // positions of pins are recomputed or rounded in every step, so that their errors do not grow
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   const std::vector<double> bound(path.frames(),
                                   10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, path));
@@ -268,7 +270,8 @@ RelationResult extension_by_stiffness(Subject& subject, const Scene& scene, unsi
   const Rest rest = at_rest(subject, scene);
   const std::vector<Spring> chain = hanging_chain_of(scene);
   const Eigen::VectorXd& mass = scene.model.particles.mass;
-  // in a chain, the tension of each spring over the mass below it is g; tensions follow the engine's own law
+  // in a chain, the tension of each spring divided by the mass below it is g; tensions follow the engine's own spring
+  // law
   SpringLaw law = scene.model.find<Springs>()->law;
   if (subject.method().spring_law != SpringLaw::hooke) law = subject.method().spring_law;
   const double weight = scene.model.find<Gravity>()->acceleration.norm();
@@ -296,7 +299,7 @@ RelationResult stiffness_has_effect(Subject& subject, const Scene& scene, unsign
     stiff.hash = hash_of(stiff);
     const Rest hard = at_rest(subject, stiff);
     const double before = extension_of(spring, soft.x), after = extension_of(spring, hard.x);
-    // any effect larger than the remaining movement counts
+    // any effect that is larger than the remaining movement counts
     RelationResult found{
         fmt::format("extension of the spring between {} and {} with four times its stiffness, of that before", spring.a,
                     spring.b),

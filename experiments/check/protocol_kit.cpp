@@ -47,10 +47,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// together with every ingredient of the protocol except the wind on triangles
+// Together, these scenes contain every ingredient of the protocol except the wind on triangles.
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
-// s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
+// s. A step of these scenes takes microseconds, and an interpreter starts in less than a second.
 constexpr double call_limit = 30;
 
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
@@ -60,13 +60,13 @@ struct KitCall {
   TemporaryFolder folder{"kit"};
   ProgramResult end;
   double limit = call_limit;  // s
-  std::string unreadable;     // why its files cannot be read
+  std::string unreadable;     // why the files of results cannot be read; empty if they can
   fs::path results() const { return folder.path / "out"; }
   bool refused() const { return end.signal == 0 && end.status == 3 && !end.timed_out; }
   bool good() const {
     return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher && unreadable.empty();
   }
-  /// Falls back to stdout if stderr is empty.
+  /// The last line of stderr, or of stdout if stderr is empty.
   std::string last_line() const {
     std::string line = last_lines(end.err.find_first_not_of(" \t\r\n") == std::string::npos ? end.out : end.err, 1);
     line.erase(std::find(line.begin(), line.end(), '\n'), line.end());
@@ -113,8 +113,7 @@ class Kit {
            const char* section) {
     add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
   }
-  /// Adds a line that is ok if `work` throws no InputError; otherwise the line has the error message without the
-  /// folder.
+  /// Adds a line. It is ok if `work` throws no InputError; otherwise it contains the error message without the folder.
   bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
                  const std::function<std::string()>& work) {
     try {
@@ -173,7 +172,7 @@ class Kit {
     try_whole(scene, run, made);
   }
 
-  /// Returns false if there is no trajectory to continue with.
+  /// Returns false if the program wrote no usable trajectory.
   bool try_files(const Scene& scene, const Run& run, const KitCall& made) {
     const int frames = time_grid(run).samples + 1, particles = scene.model.particles.size();
     const fs::path x = made.results() / "trajectory.npy", v = made.results() / "velocities.npy",
@@ -214,7 +213,7 @@ class Kit {
   }
 
   /// Nothing acts along x in this scene, so that every consistent rule moves along x at the initial speed. The position
-  /// hence shows the time, much more precisely than to the allowed half step.
+  /// therefore shows the time of a frame, much more precisely than the allowed half step.
   void try_times(const Scene& scene, const Run& run, const std::vector<Points>& path) {
     const TimeGrid grid = time_grid(run);
     for (size_t i = 0; i < path.size(); ++i) {
@@ -229,7 +228,8 @@ class Kit {
     add(scene.name, "sample times", true, true, "at run.times", scene_file);
   }
 
-  /// A first-order rule is off by g h / 2, and so are velocities half a step late or early.
+  /// A first-order rule is off by g h / 2, and so are velocities that are half a step late or early. Twice this error
+  /// plus g h / 2 is allowed.
   void try_speeds(const Scene& scene, const Run& run, const std::vector<Points>& speeds) {
     const TimeGrid grid = time_grid(run);
     const Vec3 g = scene.model.find<Gravity>()->acceleration;
@@ -263,7 +263,7 @@ class Kit {
           json.find(key) ? what : fmt::format("add the key: {}", what), run_file);
   }
 
-  /// Repeats the call as every command makes it, and checks verdict, pins, ingredients and certificate.
+  /// Repeats the call in the way of all commands, and checks verdict, pins, ingredients and certificate.
   void try_whole(const Scene& scene, const Run& run, const KitCall& made) {
     Recorder recorder;
     const Outcome out = run_method(method_, scene, run, {&recorder});
@@ -288,13 +288,14 @@ class Kit {
     if (!scene.model.first_order()) collect_rows(scene, out);
   }
 
-  /// Checks that each ingredient that the program did not refuse has an effect. The inactive ones are the set without
-  /// which mysim's path is nearest to the program's. A set of several counts only if it halves the distance of every
-  /// smaller set, because the program may differ much from mysim in other respects.
+  /// Checks that each ingredient that the program did not refuse has an effect. The inactive ingredients are the set
+  /// without which mysim's path is nearest to the program's. A set of several ingredients counts only if it halves the
+  /// distance of every smaller set, because the program may differ much from mysim in other respects.
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
     const std::vector<Ingredient> all = ingredients_of(scene);
     const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };
-    // infinite if removing one ingredient also removes another one of the set: a smaller set then has the same effect
+    // infinite if the removal of one ingredient of the set also removes another one: a smaller set then has the same
+    // effect
     const auto distance_without = [&](unsigned set) -> double {
       Recorder recorder;
       try {
@@ -350,7 +351,7 @@ class Kit {
   static int rank(Parity parity) {
     return parity == Parity::mismatch ? 3 : parity == Parity::unattested ? 2 : parity == Parity::different_law ? 1 : 0;
   }
-  /// The key of the read-back that certifies a row.
+  /// The read-back key that certifies a quantity.
   static std::string key_of(const std::string& quantity) {
     static constexpr std::pair<std::string_view, std::string_view> keys[] = {
         {"start", "start"},
@@ -393,7 +394,7 @@ class Kit {
     }
   }
 
-  /// Changes the first supported scene as other versions and callers may write it.
+  /// Modifies the first supported scene in the ways in which other versions and callers may write it.
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const char* name : kit_scenes) {
@@ -440,11 +441,11 @@ class Kit {
   Program program_;
   Method method_;
   ConformanceReport report_;
-  int taken_ = 0;  // scenes that were not refused
+  int taken_ = 0;  // number of scenes that the program did not refuse
   bool has_readback_ = false;
   bool hangs_ = false;
-  std::string first_json_;  // the scene whose run.json has lines for its keys
-  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // worst row and its scene, by quantity
+  std::string first_json_;  // name of the scene whose run.json has its own line for each key
+  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // quantity -> scene and its worst row
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-// why a relation does not apply to a scene
+// reasons why a relation does not apply to a scene; empty if it applies
 
 std::string any_scene(const Scene&) { return ""; }
 std::string with_springs(const Scene& s) {
@@ -23,7 +23,7 @@ std::string with_springs(const Scene& s) {
 }
 std::string movable(const Scene& s) {
   if (s.model.first_order()) return "its field has a place and a direction";
-  // rounding decides the last bounces before rest, and no perturbation of the start reveals that
+  // rounding decides the last bounces before rest, and perturbations of the start do not reveal this
   for (const Surface& surface : surfaces_of(s.model))
     if (surface.restitution > 0) return "endless bounces are decided by rounding";
   return "";

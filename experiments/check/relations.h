@@ -1,5 +1,5 @@
-// Relations: invariants and metamorphic relations between runs of one engine, which need no truth. Each is checked on
-// the smallest scene that can show it, with a derived tolerance.
+// Relations: invariants and metamorphic relations between runs of one engine, which need no reference solution. Each is
+// checked on the smallest scene that can show a violation, with a derived tolerance.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 namespace crosscheck {
 
 struct RelationResult {
-  std::string what;  // quantity that was compared, as a phrase
+  std::string what;  // phrase that names the compared quantity
   std::string unit;
   double measured = 0, tolerance = 0;  // in the unit
-  std::optional<double> since = {};    // s, first time at which the tolerance is exceeded
+  std::optional<double> since = {};    // s, first time at which `measured` exceeds `tolerance`
 
   /// Infinite if the tolerance is zero or the measured value is NaN.
   double ratio() const;
@@ -26,24 +26,24 @@ struct RelationResult {
 RelationResult worse(RelationResult a, RelationResult b);
 
 struct Relation {
-  std::string_view name;      // in tables and in files of known breaks
+  std::string_view name;      // as used in tables and in files of known breaks
   std::string_view sentence;  // for human readers
-  std::string_view allowed;   // derivation of its tolerance
+  std::string_view allowed;   // derivation of the tolerance
   std::vector<Scene> (*smallest)();
-  /// Why the relation does not apply to a scene; empty if it does.
+  /// Returns why the relation does not apply to a scene, or an empty text if it does.
   std::string (*excluded)(const Scene& scene);
   /// Throws CannotBeAsked and RunFailed (subject.h).
   RelationResult (*ask)(Subject& subject, const Scene& scene, unsigned seed);
 };
 
 std::span<const Relation> relations();
-/// Null if there is none.
+/// Returns nullptr if no relation has this name.
 const Relation* relation_named(std::string_view name);
-/// Throws InputError with a suggestion.
+/// Throws InputError with a suggestion if no relation has this name.
 const Relation& find_relation(const std::string& name);
 
-// Transformed scenes are in transformed.cpp, mechanics in mechanics.cpp, and one scene with different settings in
-// settings.cpp.
+// relations of transformed scenes are defined in transformed.cpp, those of mechanics in mechanics.cpp, and those
+// between different settings of one scene in settings.cpp
 
 RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed);
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed);

@@ -1,4 +1,4 @@
-// Relations of one scene solved with other steps, with more iterations, in two parts, or twice.
+// Relations between runs of one scene: with other steps, with more iterations, in two parts, or repeated.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace crosscheck {
 namespace {
 
-/// Throws CannotBeAsked if the method chooses its steps, and RunFailed if it uses a fixed step of its own.
+/// Throws CannotBeAsked if the method chooses its steps, and RunFailed if it ignores the requested step and uses its
+/// own.
 void require_own_step(const Method& method) {
   if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
   if (method.identify && method.identify().kind == FoundRule::ignores_step)
@@ -20,8 +21,8 @@ void require_own_step(const Method& method) {
         0, Verdict::ok);
 }
 
-/// Requires `fine` to be at most `part` of `coarse` plus twice the noise, while `coarse` is at most a hundredth of the
-/// lengths: beyond that, the phase error of a vibration hides any power of the step.
+/// Requires `fine` to be at most the fraction `part` of `coarse`, plus twice the noise. Compares only while `coarse` is
+/// at most a hundredth of the scene's lengths: beyond that, the phase error of a vibration hides any power of the step.
 RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
                          const std::vector<double>& coarse, const std::vector<double>& fine, double part,
                          const std::vector<double>& noise) {
@@ -60,7 +61,8 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   require_own_step(subject.method());
   const Trajectory& one = halved(subject, scene, 0);
   const int order = order_of(subject.method());
-  // an error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
+  // an error C h^p makes the second difference 2^-p of the first; the allowance of half a power covers terms of higher
+  // order
   const auto difference = [&](int times) {
     return distances(halved(subject, scene, times), halved(subject, scene, times + 1));
   };
@@ -81,11 +83,12 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   const auto noise = noise_at(subject, scene, 3);
   const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
-  // order one reduces the difference to a quarter in two halvings of the step; if it falls below half, there is a limit
+  // at order one, two halvings of the step reduce the difference to a quarter; if it falls below half, the results have
+  // a limit
   RelationResult found =
       shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
                 distances(one, two), distances(four, eight), 0.5, noise);
-  if (!found.holds()) {  // as in half_the_step()
+  if (!found.holds()) {  // gives a finer step a chance, as half_the_step() does
     RelationResult finer = shrinking(
         "an eighth against a sixteenth of the step, which is to be half of a half against a quarter", scene, one,
         distances(two, four), distances(eight, halved(subject, scene, 4)), 0.5, noise_at(subject, scene, 4));
@@ -93,7 +96,7 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   }
   const auto more = subject.with_iterations(2);
   if (!more) return found;
-  // n and 2n iterations have a common limit if their difference shrinks with the step
+  // results with n and with 2n iterations have a common limit if their difference shrinks with the step
   Subject other(*more);
   return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
                                 scene, one, distances(one, halved(other, scene, 0)),
@@ -107,7 +110,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
   if (whole.v[middle].cols() != scene.start.v.cols())
     throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
-  // a run that is at rest to rounding does not show how it continues
+  // a run that is at rest up to rounding does not show whether it continues correctly
   double moved = 0;
   for (int i = middle; i <= run.samples; ++i) moved = std::max(moved, largest_column(whole.x[i] - whole.x[middle]));
   if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it has come to rest before its middle");
@@ -120,7 +123,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
     second_half.t.push_back(whole.t[i]);
     second_half.x.push_back(whole.x[i]);
   }
-  // a rule with more state than positions and velocities must restart, which causes an error of its order
+  // a rule whose state contains more than positions and velocities must restart, which causes an error of its order
   std::vector<double> bound = subject.noise(scene).x;
   if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);
@@ -131,7 +134,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
 RelationResult same_call_twice(Subject& subject, const Scene& scene, unsigned seed) {
   const Run run = run_for_relations(scene);
   const Trajectory first = subject.fresh_run(scene, run).path;
-  // another call in between, which must leave no trace
+  // a different call in between, which must not affect the next one
   const Scene other = placed(scene, {Eigen::Matrix3d::Identity(), 0.01 * scene.size() * seeded_turn(seed).col(0)});
   subject.fresh_run(other, run);
   const Trajectory second = subject.fresh_run(scene, run).path;

@@ -79,7 +79,7 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   Noise noise;
   noise.start = rounding(scale, plain.outcome.steps, method_.position_based || has_contact(scene.model));
   if (chooses_steps(method_)) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
-  // velocities are rounded in the same proportion
+  // the noise of velocities is proportional to that of positions
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);
   if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * largest_speed(plain.path));
@@ -115,7 +115,7 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene, double lengths) 
       48 * unit_roundoff() * omega * omega * std::max(lengths, lengths_in(scene, plain.path)) * plain.outcome.step;
   const double unsolved = std::max(rule->solved_to * largest_speed(plain.path) * heaviest / lightest, rounded) *
                           static_cast<double>(std::max(1L, plain.outcome.steps));
-  // the error grows like the perturbation
+  // this error grows in the same way as the perturbation
   const double factor = 1 + unsolved * scene.duration / noise.start;
   for (double& x : noise.x) x *= factor;
   for (double& v : noise.v) v = v * factor + 3 * unsolved;
@@ -130,7 +130,7 @@ struct NamedIterations {
   int count = 1;
 };
 
-/// Reads the option n=, the iterations of position-based methods; the default is 1.
+/// Reads the option n=, the number of iterations of position-based methods; the default is 1.
 NamedIterations iterations_in(const std::string& name) {
   NamedIterations found;
   for (size_t at = 0; at <= name.size();) {

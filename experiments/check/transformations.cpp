@@ -26,7 +26,7 @@ std::vector<int> seeded_order(int n, unsigned seed) {
   std::mt19937_64 engine(seed + 2000);
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  // S. Sattolo, Inf. Process. Lett. 22, 1986: a single cycle, in which no element keeps its place
+  // S. Sattolo, Inf. Process. Lett. 22, 1986: a single cycle, so that no element stays where it was
   for (int i = n - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(engine) * i)]);
   return order;
 }
@@ -81,7 +81,7 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   reorder(scene.start.x, other.start.x);
   reorder(scene.start.v, other.start.v);
   for (int i = 0; i < n; ++i) to.mass[i] = from.mass[order[i]], to.pinned[i] = from.pinned[order[i]];
-  std::map<int, int> homes;  // a map, because the list of pins must ascend
+  std::map<int, int> homes;  // home positions of pins; a map, because the list of pins must ascend
   for (size_t i = 0; i < from.pins.size(); ++i) homes[number[from.pins[i]]] = static_cast<int>(i);
   to.pins.clear();
   for (const auto& [pin, home] : homes) {
@@ -194,8 +194,8 @@ Scene scaled(Scene scene, const Scaling& scaling) {
 
 namespace {
 
-/// The image of each particle: at the mirrored position, with the same mass and velocity, and pinned alike. Nothing if
-/// a particle has none.
+/// Index of each particle's mirror image, which has the mirrored position and velocity, the same mass, and is pinned
+/// alike. Returns nullopt if any particle has no image.
 std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
   const Particles& p = scene.model.particles;
   std::vector<int> image(p.size(), -1);
@@ -210,7 +210,7 @@ std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other
   return image;
 }
 
-/// All springs and other links, by their ends and parameters.
+/// All springs and other links as lists of their ends and parameters.
 std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<int>& image) {
   std::multiset<std::vector<double>> all;
   const auto add = [&](double kind, int a, int b, double first, double second) {
@@ -261,7 +261,7 @@ bool same_outside(const Scene& scene, const Scene& other, double near) {
     all = all && same(g->acceleration, other.model.find<Gravity>()->acceleration);
   if (const auto* w = scene.model.find<Wind>())
     all = all && same_wind(w->acceleration, other.model.find<Wind>()->acceleration);
-  // air is not symmetric: the triangles of a sheet cut its squares along one diagonal
+  // a cloth in air is not symmetric, because its triangles cut the squares along one diagonal
   all = all && !scene.model.find<Aerodynamics>() && !scene.model.first_order();
   if (const auto* spheres = scene.model.find<Spheres>())
     for (size_t i = 0; i < spheres->list.size(); ++i) {
@@ -285,7 +285,7 @@ std::optional<Mirror> mirror_of(const Scene& scene) {
   std::vector<int> itself(scene.model.particles.size());
   std::iota(itself.begin(), itself.end(), 0);
   for (int axis = 0; axis < 3; ++axis) {
-    if (high[axis] - low[axis] <= near) continue;  // trivial: the plane contains all particles
+    if (high[axis] - low[axis] <= near) continue;  // a trivial reflection: its plane contains all particles
     Mirror mirror;
     mirror.reflection.turn(axis, axis) = -1;
     mirror.reflection.shift[axis] = low[axis] + high[axis];

@@ -12,12 +12,13 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
   const Trajectory& here = subject.run(scene).path;
   const Trajectory& there = subject.run(other).path;
   const double lengths = std::max(lengths_in(scene, here), lengths_in(other, there));
-  // the residual of an implicit equation depends on the coordinates
+  // uses the noise with residuals, because the residual of an implicit equation depends on the coordinates
   return farthest(what, with_positions(here, [&](const Points& x) { return placement.of(x); }), there,
                   subject.noise_with_unsolved(scene, lengths).x, lengths);
 }
 
-/// Bound for runs with another order of summation or iteration: each run has its own iteration error.
+/// Bound for two runs that differ in the order of summation or iteration: the error of the iterations of each run is
+/// added.
 std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
   std::vector<double> bound = subject.noise(scene).x;
   for (const Scene* one : {&scene, &other})
@@ -61,7 +62,7 @@ RelationResult order_of_springs(Subject& subject, const Scene& scene, unsigned s
 RelationResult scaled_scene(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& here = subject.run(scene).path;
   const auto noise = subject.noise(scene).x;
-  // powers of two, which scale every rounding error exactly
+  // the factors are powers of two, so that rounding errors are scaled exactly
   struct Case {
     const char* what;
     Scaling scaling;
