@@ -3,11 +3,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export CI=1
-# the wrapper installs the packages that a command needs; this command also builds the module of the page's lab
+# the wrapper `crosscheck` installs the packages that a command needs; this command also builds the module for the
+# page's lab
 ./crosscheck lab pendulum -o build/lab.html
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(sudo)
-# git provides the commit for the package
+# the version of the package contains the commit, which is read with git
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends dpkg-dev file git gzip \
   >/dev/null
 cmake --build build/release --target products

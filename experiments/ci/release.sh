@@ -26,7 +26,7 @@ cp build/release/crosscheck.deb "$out/crosscheck_${version}_debian12_amd64.deb"
 cp build/release/python3-crosscheck.deb "$out/python3-crosscheck_${version}_all.deb"
 
 echo "== Debian 13"
-# the root is removed when the command ends: the package leaves it through standard output
+# the bare root is removed when the command ends, so the package is written to standard output
 BARE_SUITE=trixie .ci/bare-root sh -ec 'experiments/ci/make-package.sh >&2; cat build/release/crosscheck.deb' \
   >"$out/crosscheck_${version}_debian13_amd64.deb"
 dpkg-deb --field "$out/crosscheck_${version}_debian13_amd64.deb" Version | grep -qF "$version"

@@ -1,4 +1,5 @@
-// Experiment `contact`: collision response to balls and planes. Probes with a known result, and draped cloths.
+// Experiment `contact`: collision response to balls and planes, measured with probes whose result is known, and with
+// draped cloths.
 
 #include <fmt/format.h>
 
@@ -57,7 +58,8 @@ void cones_on(Ground ground, const Request& request, const Method& method, Table
   const bool flat = ground == Ground::plane;
   Table table = flat ? table_of<PlaneConeRow>() : table_of<ConeRow>();
   std::vector<double> steps = {1e-3};
-  // at longer steps, the error of a step hides the distance travelled a thousandth beyond the limit
+  // longer steps are omitted for planes: the error of a step would hide the distance travelled at a thousandth beyond
+  // the limit
   if (request.full && !flat) steps = {1. / 60, 1. / 240, 1e-3};
   for (const double h : steps)
     for (const double degrees : {10., 20., 30., 40., 50.}) {
@@ -65,7 +67,7 @@ void cones_on(Ground ground, const Request& request, const Method& method, Table
       std::vector<double> frictions = {0.95 * limit, 1.05 * limit};
       if (flat) frictions = {limit / 1.001, limit / 0.999};
       for (int i = 0; i <= 12; ++i)
-        // the two values above represent the range within a twentieth of the limit
+        // the two values above represent all frictions that differ from the limit by at most a twentieth
         if (std::abs(0.1 * i / limit - 1) > 0.05) frictions.push_back(0.1 * i);
       std::sort(frictions.begin(), frictions.end());
       for (const double mu : frictions) {
@@ -109,7 +111,7 @@ void plane_probes(const Request&, const Method& method, TableSet& tables) {
   tables.add(table);
 }
 
-/// Orders of a rule with contact, and of the rule with event location.
+/// Measures the orders of a rule with contact, also with event location.
 void orders_of_contact(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ContactOrderRow>();
   std::vector<Method> methods = {method};
@@ -138,7 +140,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
                             .truth_bar = truth->error_bar};
         if (out.verdict == Verdict::ok) {
           row.error = largest_rms_distance(recorder.trajectory, truth->trajectory);
-          // below thirty error bars of the truth, the error is too uncertain for a power of the step
+          // if the error is below thirty error bars of the truth, it is too uncertain for an order
           const bool known = *row.error > 30 * truth->error_bar;
           if (before && known) row.order = std::log2(*before / *row.error);
           before = known ? row.error : std::nullopt;
@@ -150,7 +152,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
   tables.add(table);
 }
 
-/// Penetration depth, settling time and final state of a run with balls or planes.
+/// Adds penetration depth, settling time and final state of a run with balls or planes.
 void drape(const Scene& scene, const Method& method, double step, TableSet& tables) {
   Table summary = table_of<DrapeRow>();
   Table deep = table_of<PenetrationRow>();
@@ -183,7 +185,7 @@ void drape(const Scene& scene, const Method& method, double step, TableSet& tabl
     if (mirror) skew = mirror->asymmetry(x);
     if (last_gap) nodes = std::max(nodes.value_or(-INFINITY), -*last_gap);
     if (last_depth) triangles = std::max(triangles.value_or(-INFINITY), *last_depth);
-    // at rest: an RMS speed of at most 1 cm/s, for at least a twentieth of the run
+    // the cloth is at rest if the RMS speed stays at or below 1 cm/s for at least the last twentieth of the run
     const auto count = static_cast<double>(x.cols());
     if (path.v[i].cols() != x.cols() || std::sqrt(path.v[i].squaredNorm() / count) > 0.01)
       settled = i + 1 < path.frames() ? path.t[i + 1] : INFINITY;

@@ -25,7 +25,7 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   const Vec3 n = (b - a).cross(c - a);
   const double area2 = n.squaredNorm();
   if (area2 > 0) {
-    // barycentric weights of the foot of the perpendicular; inside if none is negative
+    // barycentric weights of the foot of the perpendicular, which is inside the triangle if no weight is negative
     const double wa = (c - b).cross(p - b).dot(n), wb = (a - c).cross(p - c).dot(n), wc = (b - a).cross(p - a).dot(n);
     if (wa >= 0 && wb >= 0 && wc >= 0) return (wa * a + wb * b + wc * c) / (wa + wb + wc);
   }
@@ -64,7 +64,7 @@ std::optional<MirrorSymmetry> MirrorSymmetry::of(const Scene& scene) {
   const auto* spheres = model.find<Spheres>();
   const auto* gravity = model.find<Gravity>();
   const int n = model.particles.size();
-  // compares every pair: one second for ten thousand particles
+  // compares all pairs, which takes a second for ten thousand particles
   if (!spheres || spheres->list.size() != 1 || spheres->moving() || model.find<Wind>() || model.find<Aerodynamics>() ||
       model.particles.move || n < 2 || n > 10000 || !scene.start.v.isZero(0))
     return std::nullopt;
@@ -116,7 +116,7 @@ Trajectory each_step(const Method& method, const Scene& scene, double step, Outc
   return std::move(recorder.trajectory);
 }
 
-/// Angle from the top (degrees) and speed where the gap equals `gap`, interpolated over a step.
+/// Angle from the top (degrees) and speed at which the gap to the ball equals `gap`, interpolated over a step.
 Leaving passing(const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1) {
   const double before = x0.norm() - ball - gap, after = x1.norm() - ball - gap, part = before / (before - after);
   const Vec3 x = x0 + part * (x1 - x0);
@@ -136,8 +136,8 @@ std::optional<double> rebound(const Method& method, const Scene& scene, double s
   const Trajectory path = each_step(method, scene, step, out);
   if (out.verdict != Verdict::ok) return std::nullopt;
   const double fall = std::sqrt(2 * drop / gravity);  // s
-  // the highest point after the landing (the lowest sample within two steps of the impact), because earlier heights
-  // belong to the fall
+  // searches the highest point after the landing only, because earlier heights belong to the fall. The landing is the
+  // lowest sample within two steps of the impact
   int landed = 0;
   double lowest = INFINITY;
   for (int i = 0; i < path.frames(); ++i)
@@ -203,8 +203,8 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
   ConeResult result{(path.x.back() - path.x.front()).norm(),
                     std::max(0.0, gravity * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2,
                     ContactState::neither};
-  // m: a thousandth beyond the limit at 10 degrees the distance is 0.21 mm, and the error of a first-order rule is 0.02
-  // mm
+  // m. At a thousandth beyond the limit and 10 degrees, the distance is 0.21 mm, and the error of a first-order rule is
+  // 0.02 mm.
   const double negligible = ground == Ground::plane ? 5e-5 : 1e-3;
   if (result.distance < negligible)
     result.state = ContactState::sticks;
@@ -218,7 +218,7 @@ namespace {
 constexpr double returned = 0.8, width = 0.7, speed = 3;  // e, m between the contact planes, m/s
 constexpr int periods = 10;
 
-/// Highest position after the third landing, m; 0 with fewer landings.
+/// Highest position after the third landing, m; 0 if there are fewer landings.
 double third_apex(const Trajectory& path) {
   int landings = 0;
   bool falling = false;
@@ -280,7 +280,7 @@ std::optional<double> measured(PlaneProbe probe, const Method& method, double st
     const double gained = std::pow(gravity * std::sin(25 * std::numbers::pi / 180) * scene.duration, 2) / 2;  // J
     return ledger.rows().empty() ? std::nullopt : std::optional(ledger.rows().back().contact / gained);
   }
-  // at rest: slower than a thousandth of the speed after one step of free fall
+  // a particle counts as at rest if it is slower than a thousandth of the speed after one step of free fall
   int held = 0;
   for (int i = 1; i < path.frames(); ++i) held += path.v[i].norm() < 1e-3 * gravity * step;
   return double(held) / (path.frames() - 1);

@@ -19,12 +19,12 @@
 namespace crosscheck {
 namespace {
 
-/// Prevents the compiler from removing the work on `data`.
+/// Prevents the compiler from optimising away the work on `data`.
 void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
 
-/// Compiled for each instruction set; the machine's best is used.
+/// Compiled for each instruction set; at run time the best one of the machine is used.
 #if defined(__SANITIZE_ADDRESS__)
-// the function that chooses the clone runs before the sanitizer is ready
+// no clones: the function that chooses one runs before the sanitizer is ready
 #else
 [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #endif
@@ -66,10 +66,10 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-/// Without samples in between.
+/// A run of `steps` steps without samples in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
-/// Takes about 10 ms by the estimate.
+/// Number of steps that take about 10 ms according to the estimate.
 long steps_to_time(const Method& method, const Scene& scene) {
   const double each = estimated_seconds(method, scene, steps_of(scene, 1));
   return std::clamp(std::lround(0.01 / each), 2L, 2000L);
@@ -81,7 +81,7 @@ struct TimedLoop {
   std::shared_ptr<double> count = std::make_shared<double>(1);
 };
 
-/// Steps of a method. `run` returns 0 if the method does not support the scene.
+/// Loop over steps of a method. `run` returns 0 if the method does not support the scene.
 TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
   TimedLoop loop;
   loop.run = [&method, &scene, steps, outcome, count = loop.count] {
@@ -95,7 +95,8 @@ TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outc
   return loop;
 }
 
-/// Times of one step or call of each loop, s. Loops of 5 ms need no warm-up, and loops of 10 ms are run twice.
+/// Times (s) of one step or call of each loop. Quick measurements run loops of 5 ms without a warm-up, and loops of 10
+/// ms twice.
 std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
   std::vector<std::function<double()>> runs;
   for (const TimedLoop& loop : loops) runs.push_back(loop.run);
@@ -113,7 +114,7 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 void cost_of_size(const Request& request, int n, TableSet& tables) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, requested = methods_of(request, scene);
-  // for comparison with engines without a fused step: the same rule on a general spring graph
+  // also measures the same rule on a general spring graph, for comparison with engines without a fused step
   if (request.methods.empty()) requested.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : requested) {
     if (method.adaptive) continue;
@@ -180,7 +181,7 @@ TimedLoop forces_alone(const Scene& scene) {
   return {run, std::make_shared<double>(calls)};
 }
 
-/// a - b, with the sum of the widths of both intervals.
+/// a - b. The interval is as wide as both intervals together.
 Timing minus(const Timing& a, const Timing& b) {
   return {a.median - b.median, a.low - b.high, a.high - b.low, std::min(a.repetitions, b.repetitions)};
 }

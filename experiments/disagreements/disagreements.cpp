@@ -23,7 +23,7 @@ std::vector<DirectionError> direction_errors(const std::string& method, Scene sc
   const Vec3 g = scene.model.find<Gravity>()->acceleration;
   const Method chosen = find_method(method);
   constexpr double duration = 4e-3, step = 2e-4;  // s
-  constexpr double inside = 1.2e-4;               // m: a grid of 20 mm puts the surface up to a^2 / 4R = 0.1 mm too low
+  constexpr double inside = 1.2e-4;  // m: the surface of a grid of 20 mm is up to a^2 / 4R = 0.1 mm too low
 
   std::vector<DirectionError> errors;
   for (const double angle : angles) {
@@ -49,7 +49,7 @@ Scene scene_of(const Disagreement& disagreement) {
 
 namespace {
 
-/// For "engine:NAME+option", the kept program.
+/// The method of a row: for "engine:NAME+option", the kept program with this option; otherwise the name itself.
 std::string method_named(const std::string& name) {
   if (!name.starts_with(engine_prefix)) return name;
   const size_t end = name.find('+');
@@ -178,7 +178,7 @@ std::string criterion_of(const Disagreement& d) {
 
 namespace {
 
-/// Fingerprint of the kept program that a row is about, if it is among the methods.
+/// Fingerprint of the kept program to which a row refers, if it is among the methods.
 std::optional<std::string> fingerprint_of(const Disagreement& row, const Request& request) {
   const std::string program = method_named(row.world);
   for (const Method& method : request.methods)
@@ -191,7 +191,7 @@ std::optional<std::string> fingerprint_of(const Disagreement& row, const Request
 std::vector<Point> disagreements_points(const Request& request) {
   std::string program, fingerprint;
   for (const Method& method : request.methods)
-    // a program with Bullet's worlds has the option +world
+    // programs with Bullet's worlds have the option +world
     if (const size_t at = method.name.find("+world=");
         method.name.starts_with(program_prefix) && at != method.name.npos) {
       if (!program.empty() && program != method.name.substr(0, at))

@@ -14,7 +14,7 @@
 namespace crosscheck::effects {
 namespace {
 
-/// Mean time between upward passages through the middle, s; NaN for fewer than two.
+/// Mean time between upward passages through the middle, s; NaN if there are fewer than two passages.
 double period(const Series& s) {
   double low = 1e300, high = -1e300, first = 0, last = 0;
   int passages = 0;
@@ -51,8 +51,8 @@ double sag(const Scene& scene, const State& s) {
 double length(const Scene&, const State& s) { return (s.x.col(1) - s.x.col(0)).norm(); }
 double along_wind(const Scene&, const State& s) { return s.v.row(2).mean(); }
 double gap(const Scene& scene, const State& s) { return 1e3 * *clearance(scene, s.t, s.x); }
-/// Angle by which the particle's path is steeper than the ball's tangent, mrad. 0 in the first half millimetre, where
-/// the particle falls freely to the surface of a 20 mm field, up to 0.1 mm below.
+/// Angle by which the particle's path is steeper than the ball's tangent, mrad. Returns 0 in the first half millimetre,
+/// where the particle falls freely to the surface of a grid of 20 mm, which is up to 0.1 mm too low.
 double steeper(const Scene& scene, const State& s) {
   const Vec3 v = s.v.col(0), from = s.x.col(0) - scene.model.find<Spheres>()->list[0].centre;
   return moved(scene, s) < 5e-4 ? 0 : 1e3 * (std::atan2(-v.y(), v.x()) - std::atan2(from.x(), from.y()));
@@ -104,7 +104,7 @@ std::string hessian_effect(const std::vector<Series>& all) {
 }
 
 std::string rest_effect(const std::vector<Series>& all) {
-  // halfway between the turning points: a mean over time would depend on the number of periods
+  // uses the middle between the turning points, because a mean over time would depend on the number of periods
   auto middle = [](const Series& s) {
     const auto [low, high] =
         std::ranges::minmax(s.points | std::views::transform([](const auto& point) { return point.second; }));
@@ -117,7 +117,7 @@ std::string rest_effect(const std::vector<Series>& all) {
 }
 
 std::string wind_effect(const std::vector<Series>& all) {
-  // time until half of the reference's final speed
+  // time at which a run reaches half of the reference's final speed
   const double half = all[0].last() / 2;
   auto reached = [&](const Series& s) {
     for (const auto& [t, v] : s.points)
@@ -177,7 +177,8 @@ std::string hop_effect(const std::vector<Series>& all) {
 }
 
 std::string precision_effect(const std::vector<Series>& all) {
-  // 24 bits are rounded by 6e-8 of the value; about ten roundings per step accumulate like a random walk
+  // numbers of 24 bits are rounded by 6e-8 of their value; the errors of about ten roundings per step accumulate like a
+  // random walk
   constexpr double length = 2;  // m, positions in the scene
   const double expected = 10 * 6e-8 * length * std::sqrt(static_cast<double>(all[2].outcome.steps));
   return fmt::format(
@@ -220,7 +221,7 @@ std::string unused_effect(const std::vector<Series>& all) {
 }
 
 std::string over_relaxation_effect(const std::vector<Series>& all) {
-  // a sample is a step; from step 6 the decaying root has vanished, and the stretch is still small
+  // every step is a sample; from step 6 the decaying root has vanished, and up to step 12 the stretch is still small
   auto growth = [](const Series& s) -> double {
     constexpr size_t from = 6, to = 12;
     if (s.points.size() <= to) return NAN;

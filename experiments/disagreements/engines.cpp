@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto differs = Condition::Kind::apart, agrees = Condition::Kind::within;
 
-/// E.g. "Rapier, 4 sub-steps is up to 0.0134 m from symplectic Euler, mysim; Rapier, 1 sub-step up to 2e-06 m."
+/// Example: "Rapier, 4 sub-steps is up to 0.0134 m from symplectic Euler, mysim; Rapier, 1 sub-step up to 2e-06 m."
 std::string distances(const std::vector<Series>& all) {
   std::string text;
   for (size_t i = 1; i < all.size(); ++i)

@@ -16,7 +16,7 @@ using namespace effects;
 constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within, hangs = Condition::Kind::hangs;
 
 /// Adds heading, cause and threads from the section "# NAME" of disagreements.md. If threads are known, the last
-/// paragraph begins with "Upstream: ". Throws std::logic_error if there is no section.
+/// paragraph of the section begins with "Upstream: ". Throws std::logic_error if there is no such section.
 void add_texts(Disagreement& row) {
   static const std::string file =
       read_file(data_folder() / "experiments/disagreements/disagreements.md", "the texts of disagreements");
@@ -41,7 +41,7 @@ std::vector<Disagreement> table() {
         {"Bullet, position-based", "bullet/pbd"}},
        moved,
        friction_effect,
-       // Coulomb's law gives a distance of 0.29 m
+       // by Coulomb's law the distance is 0.29 m
        {{apart, 2, 0, 0.2}},
        {{within, 1, 0, 2e-3}}},
       {"pbd-stiffness",
@@ -56,7 +56,7 @@ std::vector<Disagreement> table() {
         {"the demos' settings, 1/60 s", "bullet/pbd+demo", 1. / 60}},
        sag,
        stiffness_effect,
-       // half of the requested 5.9 mm, and a twentieth of it
+       // bounds: half of the requested 5.9 mm, and a twentieth of it
        {{apart, 1, 0, 3}},
        {{within, 4, 0, 0.3}}},
       {"link-law",
@@ -68,7 +68,7 @@ std::vector<Disagreement> table() {
         {"the link law, mysim", "mysim/leapfrog", 0, SpringLaw::bullet_link}},
        length,
        law_effect,
-       // the length oscillates over a metre
+       // the length oscillates over a range of one metre
        {{apart, 1, 0, 0.2}},
        {{within, 2, 1, 0.05}}},
       {"implicit-freeze",
@@ -80,7 +80,7 @@ std::vector<Disagreement> table() {
         {"Bullet, without it", "bullet/deformable-implicit+unprojected"}},
        length,
        freeze_effect,
-       // m, in the first sample, at which the run is stopped
+       // distances in the first sample, m; the run ends there
        {{apart, 2, 1, 0.01}},
        {{within, 1, 0, 1e-3}}},
       {"indefinite-hessian",
@@ -105,7 +105,7 @@ std::vector<Disagreement> table() {
         {"Bullet, explicit, flag cleared", "bullet/deformable-explicit"}},
        length,
        rest_effect,
-       // the initial compression of 0.1 m; twice h v, the largest difference of the two rules at 2 m/s
+       // bounds: the initial compression of 0.1 m; twice h v, which is the largest difference of the two rules at 2 m/s
        {{apart, 1, 0, 0.1}},
        {{within, 3, 0, 4e-3}}},
       {"wind-at-rest",
@@ -141,7 +141,7 @@ std::vector<Disagreement> table() {
         {"Bullet, voxel of 0.02 m", "bullet/pbd"}},
        gap,
        field_effect,
-       // mm: a^2 / 4R is 15.6 and 0.1 for the two grid sizes a
+       // bounds in mm: a^2 / 4R is 15.6 and 0.1 for the two grid sizes a
        {{apart, 1, 0, 1}},
        {{within, 2, 0, 0.1}}},
       {"contact-direction",
@@ -155,7 +155,7 @@ std::vector<Disagreement> table() {
         {"Bullet, voxel of 1.25 mm", "bullet/deformable-explicit+voxel=0.00125"}},
        steeper,
        direction_effect,
-       // mrad: a / 2R is 9.8 for a grid of 20 mm and 0.6 for 1.25 mm
+       // bounds in mrad: a / 2R is 9.8 for a grid of 20 mm and 0.6 for 1.25 mm
        {{apart, 3, 0, 4}},
        {{within, 4, 0, 1.5}},
        directions},
@@ -178,7 +178,7 @@ std::vector<Disagreement> table() {
         {"Bullet, single precision", "bullet32/deformable-explicit"}},
        nullptr,
        precision_effect,
-       // m: one rounding of 1.5 m; round-off of 3000 steps
+       // bounds in m: rounding of a single number of 1.5 m; round-off of 3000 steps
        {{apart, 2, 0, 1e-7}},
        {{within, 1, 0, 1e-13}}},
       {"network-in-pieces",
@@ -190,7 +190,7 @@ std::vector<Disagreement> table() {
         {"Bullet, joined by 1e-9 N/m", "bullet32/deformable-explicit+in-pieces+timeout=60", 0, SpringLaw::hooke, join}},
        lowest,
        pieces_effect,
-       // without the hang, the run takes as long as the joined one; twice g h t / 2
+       // without the hang, the run takes as long as that of the joined network; the second bound is twice g h t / 2
        {{hangs, 1, 2, 3}},
        {{within, 2, 0, 2e-3}}},
       {"one-stiffness",
@@ -202,7 +202,7 @@ std::vector<Disagreement> table() {
         {"Bullet, one body, one force", "bullet/deformable-explicit"}},
        second_stretch,
        one_stiffness_effect,
-       // a tenth of the stiffness stretches it by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
+       // a tenth of the stiffness lets the spring stretch by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
        {{apart, 1, 0, 50}},
        {{within, 2, 0, 0.5}}},
       {"gravity-factor",
@@ -214,7 +214,7 @@ std::vector<Disagreement> table() {
         {"Bullet, deformable", "bullet/deformable-explicit+gravity-factor=0.5"}},
        moved,
        gravity_factor_effect,
-       // it falls twice as far as the expected 4.9 m; g h t / 2 = 0.01 m
+       // the particle falls twice as far as the expected 4.9 m; g h t / 2 = 0.01 m
        {{apart, 1, 0, 4}},
        {{within, 2, 0, 0.02}}},
       {"stiffness-unused",
@@ -230,7 +230,7 @@ std::vector<Disagreement> table() {
         {"100 N/m, deformable, kLST 0.01", "bullet/deformable-explicit+kLST=0.01"}},
        sag,
        unused_effect,
-       // most of the 59 mm, and identical bits; h v = 0.3 mm at 0.3 m/s
+       // bounds: most of the 59 mm, and identical bits; h v = 0.3 mm at 0.3 m/s
        {{apart, 0, 1, 40}, {within, 2, 3, 0}},
        {{within, 4, 0, 0.6}, {within, 5, 1, 0.6}, {within, 6, 4, 0}}},
       {"over-relaxation",
@@ -243,7 +243,7 @@ std::vector<Disagreement> table() {
         {"Bullet, kLST 1.5", "bullet/pbd+kLST=1.5"}},
        stretch,
        over_relaxation_effect,
-       // it starts at 0.1 mm, which a stable link never exceeds
+       // the distance starts at 0.1 mm, which a stable link never exceeds
        {{apart, 3, 0, 1}},
        {{within, 2, 1, 0.1}}},
       {"small-things",
@@ -256,7 +256,7 @@ std::vector<Disagreement> table() {
         {"Bullet, both scaled", "bullet/deformable-explicit+voxel=0.0002"}},
        gap,
        small_effect,
-       // a hundredth of the ball; a^2 / 4R = 0.001 mm, and the fall to the surface
+       // bounds: a hundredth of the ball; a^2 / 4R = 0.001 mm, plus the fall to the surface
        {{apart, 1, 0, 0.1}, {apart, 2, 0, 0.1}},
        {{within, 3, 0, 0.005}}},
       {"sleeping",
@@ -268,7 +268,7 @@ std::vector<Disagreement> table() {
         {"Bullet, sleeping switched off", "bullet/deformable-explicit"}},
        stretch,
        sleeping_effect,
-       // amplitude 1 mm; twice h v at 10 mm/s
+       // the amplitude is 1 mm; the second bound is twice h v at 10 mm/s
        {{apart, 1, 0, 0.5}},
        {{within, 2, 0, 0.04}}},
   };

@@ -19,7 +19,8 @@ std::string filled(const std::string& name, const std::vector<std::pair<std::str
   return text;
 }
 
-/// The row's program, or the installed version of Bullet (from the tables' line of engines) and the row's world.
+/// The row's program or, for a Bullet world, the installed version of Bullet (from the tables' line of engines) and the
+/// world.
 std::string version_of(const DisagreementRow& row, const std::string& engines) {
   if (row.world.starts_with(program_prefix)) return row.world;
   const size_t bullet = engines.find("Bullet");  // Bullet is the last engine
@@ -36,8 +37,8 @@ std::string gallery(const std::vector<DisagreementRow>& rows, const std::string&
   return filled("gallery.md", {{"{troubles}", troubles}});
 }
 
-// The programs in the reports and their output were tested with Bullet 3.24 in double precision (Debian 3.24+dfsg-2),
-// and the change of buildTreeBottomUp with btSoftBody.cpp of tag 3.24.
+// The programs in the reports and their output were tested with Bullet 3.24 in double precision (Debian 3.24+dfsg-2).
+// The change to buildTreeBottomUp was tested with btSoftBody.cpp from tag 3.24.
 constexpr std::string_view reports[] = {"network-in-pieces", "contact-direction"};
 
 bool is_there(const DisagreementRow& row) {

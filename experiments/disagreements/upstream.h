@@ -14,9 +14,10 @@ struct UpstreamText {
   std::string file, text;  // Markdown
 };
 
-/// upstream-gallery.md: each disagreement with its threads, its state and the evidence, and the threads without a
-/// scene. upstream-NAME.md: a report for each reproduced disagreement that is written up. Empty without rows.
-/// `engines`: the versions that were run, as in the tables; rows of an external program name the program.
+/// Returns upstream-gallery.md, which contains each disagreement with its threads, its state and the evidence, and the
+/// threads without a scene; and upstream-NAME.md, a report for each reproduced disagreement that has a written report.
+/// Empty if there are no rows. `engines`: the versions that were run, as in the tables; rows about an external program
+/// name the program.
 std::vector<UpstreamText> upstream_texts(const TableSet& rows, const std::string& engines);
 
 }  // namespace crosscheck
