@@ -15,9 +15,10 @@
 namespace crosscheck {
 namespace {
 
-/// Factor for the estimates, which are for release builds. Without optimisation, each access to a number through Eigen
-/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. __OPTIMIZE__
-/// cannot tell, because fmt's headers switch optimisation on for a while, after which g++ reports it as on.
+/// Factor by which estimates, which hold for release builds, are multiplied. Without optimisation, each access to a
+/// number through Eigen is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times
+/// as long. __OPTIMIZE__ cannot be used here, because fmt's headers switch optimisation on temporarily, and afterwards
+/// g++ reports it as on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else
@@ -110,7 +111,7 @@ std::vector<Case> cases(const Selection& selection) {
       add({scene, method, "", false, scene.hash});
       if (method.name != own && selection.methods.empty()) continue;
       for (const Ingredient& ingredient : ingredients_of(scene))
-        if (ingredient.name != "rotation")  // the only term of a first-order scene
+        if (ingredient.name != "rotation")  // rotation is the only term of a first-order scene and must stay
           add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }

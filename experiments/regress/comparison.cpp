@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// False also for verdict `nan`.
+/// True if the value is finite; false also for the word `nan`.
 bool is_finite(const Quantity& q) { return q.is_word() ? q.word != name_of(Verdict::nan) : std::isfinite(q.value); }
 
 Status state_of(const Quantity& is, const QuantityWithTolerance& was) {

@@ -1,4 +1,4 @@
-// Comparison of quantities with their baselines: the status of each, and the size of the difference.
+// Comparison of quantities with their baselines: the status of each quantity, and the size of the difference.
 #pragma once
 
 #include <span>
@@ -7,15 +7,15 @@
 
 namespace crosscheck {
 
-/// Failures come first; all before `added` are failures.
+/// Failures come first: all values before `added`.
 enum class Status {
-  moved,       // by more than the tolerance, or to another word
+  moved,       // differs by more than the tolerance, or is another word
   not_finite,  // NaN or infinite, or the verdict nan
   gone,        // blessed and selected, but no longer measured
   missing,     // the scene has no baseline file
-  stale,       // the baseline is of another scene with the same name
+  stale,       // the baseline belongs to another scene with the same name
   unreadable,  // the file is not a baseline
-  added,       // not blessed yet: a quantity, or all of a method
+  added,       // not blessed yet: one quantity, or all quantities of a method
   same,
 };
 std::string_view name_of(Status state);
@@ -27,22 +27,22 @@ struct Comparison {
   std::string was_word, is_word;
   double tolerance = 0;
   Status state = Status::same;
-  std::string note;  // e.g. the error in a file
-  /// Difference in units of the tolerance; 0 for words, infinite for counts.
+  std::string note;  // such as the error in a file
+  /// Difference from the baseline in units of the tolerance; 0 for words, infinite for counts.
   double off() const;
-  /// Sort key for reports: words first, then numbers by off(), then counts.
+  /// Sort key for reports, in which words come first, then numbers by off(), then counts.
   double rank() const;
 };
 
-/// Compares one case's quantities with its baseline; without one, all quantities are new.
+/// Compares one case's quantities with its baseline. If there is no baseline, all quantities are new.
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
-/// The failed row with the largest rank of each case and status, so that a thousand rows fit on a screen.
+/// The failed row with the largest rank for each case and status, so that a thousand rows fit on a screen.
 std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows);
 
-/// A method whose quantities are all new in some scenes: it was added after their baselines were blessed, or is slow
-/// and they were blessed in a quick run.
+/// A method whose quantities are all new in some scenes. Either it was added after the baselines of these scenes were
+/// blessed, or it is slow and they were blessed in a quick run.
 struct NewMethod {
   std::string method;
   size_t scenes = 0, quantities = 0;

@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// Frames at the ends of `parts` equal parts of the run.
+/// Indices of the frames at the ends of `parts` equal parts of the run.
 std::vector<int> frames_at(const Trajectory& path, int parts) {
   std::vector<int> frames;
   for (int i = 1; i <= parts; ++i) {
@@ -33,7 +33,7 @@ void offsets(const Observation& seen, Quantities& out) {
     out.push_back({offset_at(seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
 }
 
-/// Positions projected on a random direction for each particle: they differ even if means over the particles agree.
+/// Positions projected on a random direction for each particle. These differ even if means over the particles agree.
 void places(const Observation& seen, Quantities& out) {
   const auto n = seen.path().x.front().cols();
   std::mt19937_64 engine(20250101);
@@ -66,11 +66,11 @@ void peak_stretch(const Observation& seen, Quantities& out) {
   if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
 }
 
-/// Amplitudes of the final offset in waves along and across the initial scene; the first is the mean offset.
+/// Amplitudes of the final offset in waves along and across the initial scene. The first amplitude is the mean offset.
 void shape(const Observation& seen, Quantities& out) {
   const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
-  // the two widest directions of the start; the first ones of equal width
+  // the two directions in which the start is widest; if widths are equal, the first ones
   const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
@@ -95,7 +95,7 @@ void sag(const Observation& seen, Quantities& out) {
   out.push_back({"sag", "m", (gravity->acceleration.normalized().transpose() * offset).maxCoeff()});
 }
 
-/// From turning points of the particles' mean position, at parabolas through three samples.
+/// Period from turning points of the particles' mean position, at the vertices of parabolas through three samples.
 void period(const Observation& seen, Quantities& out) {
   const Trajectory& path = seen.path();
   if (has_contact(seen.scene().model) || path.frames() < 8) return;
@@ -110,7 +110,7 @@ void period(const Observation& seen, Quantities& out) {
     if ((before > 0) == (after > 0)) continue;
     turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
   }
-  // more turning points are small ripples, which have no period
+  // if there are more turning points, they are small ripples, which have no period
   if (turns.size() < 3 || turns.size() > 40) return;
   out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
 }
@@ -123,7 +123,8 @@ void smallest_clearance(const Observation& seen, Quantities& out) {
   out.push_back({"smallest clearance", "m", least});
 }
 
-/// The truth over the scene's run if it has a closed form: a converged one takes minutes to compute.
+/// The truth over the scene's run if it has a closed form; otherwise nullopt, because a converged truth takes minutes
+/// to compute.
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
   const auto truth = truth_of(scene, default_run(scene));
@@ -136,7 +137,8 @@ void rebound_height(const Observation& seen, Quantities& out) {
   double highest = 0;
   for (int i = 0; i < seen.path().frames(); ++i) {
     const double gap = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
-    // touching: the gap is below the fall in one step, because the contact lies between two samples
+    // a particle touches a surface if its gap is smaller than its movement in the last step, because the contact lies
+    // between two samples
     const double fall = i > 0 ? largest_column(seen.path().x[i] - seen.path().x[i - 1]) : 0;
     touched |= i > 0 && gap < fall;
     if (touched) highest = std::max(highest, gap);
@@ -144,9 +146,9 @@ void rebound_height(const Observation& seen, Quantities& out) {
   if (touched) out.push_back({"rebound height", "m", highest});
 }
 
-/// Largest RMS distance from the same run at half the step, m, if there is no closed form: an estimate of the error,
-/// correct up to a factor that depends on the order. Needs a run twice as long; skipped for scenes without an
-/// ingredient.
+/// Largest RMS distance from the same run at half the step, m, for scenes without a closed form. It estimates the error
+/// up to a factor that depends on the order. Takes a run twice as long. Skipped for scenes from which an ingredient was
+/// removed.
 void change_at_half_the_step(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Method& method = seen.test_case.method;
@@ -158,8 +160,8 @@ void change_at_half_the_step(const Observation& seen, Quantities& out) {
   out.push_back({halving_quantity, "m", largest_rms_distance(seen.path(), recorder.trajectory, scene.window)});
 }
 
-/// log2 of the error relative to the closed form over that at half the step: close to the rule's order. Needs one more
-/// run. Skipped if the error is below 1e-10 of the scene's size, where it has no meaning.
+/// log2 of the ratio of the error (relative to the closed form) to that at half the step, which is close to the rule's
+/// order. Takes one more run. Skipped if the error is below 1e-10 of the scene's size, where the ratio has no meaning.
 void order_of_error(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.test_case.method.stepper;
@@ -173,15 +175,15 @@ void order_of_error(const Observation& seen, Quantities& out) {
   if (run_method(seen.test_case.method, scene, half, {&recorder}).verdict != Verdict::ok) return;
   const double whole = largest_rms_distance(seen.path(), truth->trajectory, scene.window),
                halved = largest_rms_distance(recorder.trajectory, truth->trajectory, scene.window);
-  // 1e3 times the rounding of positions, below which there is no order
+  // 1e3 times the rounding error of positions; smaller errors show no order
   if (!(halved > 1e-10 * std::max(1.0, scene.size()))) return;
   out.push_back({"order of the error", "1", std::log2(whole / halved)});
-  // each error is uncertain by the error bar
+  // both errors are uncertain by the error bar
   out.back().error_bar = truth->error_bar / halved * 2 / std::log(2.);
 }
 
-/// Largest stable step, s, by bisection from rest, to 0.2 %: for scenes of at most 12 free coordinates and rules with a
-/// finite limit. About 25 runs of 4000 steps.
+/// Largest stable step (s) from rest, found by bisection to 0.2 %, for scenes with at most 12 free coordinates and
+/// rules with a finite limit. Takes about 25 runs of 4000 steps.
 void largest_stable_step(const Observation& seen, Quantities& out) {
   constexpr double precision = 2e-3;
   const Method& method = seen.test_case.method;
@@ -198,8 +200,8 @@ void largest_stable_step(const Observation& seen, Quantities& out) {
   out.back().error_bar = measured.limit() * measured.precision();
 }
 
-/// Scale of the numbers that are subtracted: positions, energies, and the ratio of a spring's length to its rest
-/// length. For energies at least that of a motion through the scene in its window, in case nothing moves.
+/// Scale of the numbers that are subtracted: positions, energies, or the ratio of a spring's length to its rest length.
+/// The scale of energies is at least that of a motion through the scene in its window, in case nothing moves.
 double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& case_run) {
   double most = unit == "1" ? 1 : 0;
   if (unit == "m")
@@ -213,7 +215,7 @@ double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& 
   return most;
 }
 
-/// Counts that rounding cannot change: rules with fixed steps, without an equation that is solved to a tolerance.
+/// Counts that rounding cannot change: only for rules with fixed steps that solve no equation to a tolerance.
 void counts(const Observation& seen, Quantities& out) {
   const Stepper* rule = seen.test_case.method.stepper;
   if (!rule || rule->adaptive || rule->evaluations == 0) return;
@@ -221,7 +223,7 @@ void counts(const Observation& seen, Quantities& out) {
   out.push_back({"force evaluations", "1", static_cast<double>(seen.case_run.outcome.evaluations), {}, true});
 }
 
-/// Only with a closed form: a converged truth would add nothing to the comparison of positions.
+/// Only for scenes with a closed form: a converged truth would add nothing to the comparison of positions.
 void error_against_truth(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const auto truth = exact_truth(scene);
@@ -230,7 +232,7 @@ void error_against_truth(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar;
 }
 
-/// With six digits, because single precision rounds its input.
+/// Rounded to six digits, because single precision rounds its input.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
   const Readback& readback = *seen.case_run.outcome.readback;
@@ -261,10 +263,10 @@ constexpr void (*table[])(const Observation&, Quantities&) = {settings,
                                                               change_at_half_the_step,
                                                               largest_stable_step};
 
-/// Taken up to half the time until the failure.
+/// Quantities of a failed run, evaluated up to half the time of the failure.
 constexpr void (*table_of_failed[])(const Observation&, Quantities&) = {offsets, places};
 
-/// True if the motion itself failed, at a reproducible time.
+/// True if the motion itself failed, which happens at a reproducible time.
 bool failed_in_time(Verdict verdict) {
   return verdict != Verdict::ok && verdict != Verdict::unsupported && verdict != Verdict::timeout &&
          verdict != Verdict::crash;
@@ -282,7 +284,7 @@ void settle_time(const Observation& seen, Quantities& out) {
   size_t last = 0;
   for (size_t i = 0; i < rows.size(); ++i)
     if (rows[i].energy.kinetic > 0.01 * peak) last = i;
-  // a fall near the end of the run may be followed by another rise
+  // skipped near the end of the run, where another rise of the energy may follow
   if (!(peak > 0) || last + 1 >= rows.size() || rows[last].t > 0.8 * rows.back().t) return;
   const double above = std::log(rows[last].energy.kinetic / (0.01 * peak)),
                below = std::log(std::max(rows[last + 1].energy.kinetic, 1e-9 * peak) / (0.01 * peak));
@@ -326,7 +328,7 @@ std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_r
       for (const auto add : table_of_failed) add({test_case, half}, all);
     size(all, half);
     all.push_back({time_of_failure, "s", case_run.outcome.end});
-    // failures are detected at samples, so that a threshold may be crossed one sample or one step later
+    // failures are detected at samples, so that a run may cross a threshold one sample or one step later
     const Run run = run_over_window(test_case.scene);
     all.back().error_bar = run.duration / run.samples + 2 * case_run.outcome.step;
   }

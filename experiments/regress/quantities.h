@@ -14,7 +14,7 @@ struct Observation {
 };
 using Quantities = std::vector<Quantity>;
 
-/// The last time at which the kinetic energy falls below a hundredth of its maximum, for runs that come to rest.
+/// For runs that come to rest: the last time at which the kinetic energy falls below a hundredth of its maximum.
 void settle_time(const Observation& seen, Quantities& out);
 
 /// For a particle that starts on a ball: the angle from the top at which it first rises 1 mm above the contact surface,

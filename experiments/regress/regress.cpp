@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case and the name of its result. Tolerances need three more runs.
+/// A case and the name of its result. Tolerances take three more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -23,11 +23,11 @@ struct Job {
 
 struct JobResults {
   std::map<std::string, std::vector<QuantityWithTolerance>>
-      quantities;                     // by name; tolerances are 0 if the job does not compute them
-  std::vector<FailedPoint> failures;  // cases without a result, i.e. crashes
+      quantities;                     // by name of the job; tolerances are 0 if the job does not compute them
+  std::vector<FailedPoint> failures;  // cases without a result, because of a crash
 };
 
-/// Passed from the process that ran the case.
+/// Row by which the process that ran the case passes a quantity on.
 struct QuantityRow {
   TABLE("quantities");
   COLUMN(std::string, test_case, "case", "1", "scene, method and the removed ingredient");
@@ -65,7 +65,7 @@ std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
   return all;
 }
 
-/// Each case runs in its own process; `out`: folder for finished ones.
+/// Runs each case in a separate process. `out`: folder for finished cases.
 JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
                     Progress& progress) {
   std::vector<Point> points;
@@ -104,10 +104,10 @@ std::string name_with_other_method(const Case& q) { return q.in_words() + " (aga
 
 std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1a::of(scene.source)); }
 
-/// False only for refusals.
+/// False if the method refused the scene.
 bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
 
-/// The scenes' baselines. An invalid file adds a row.
+/// Reads the baselines of scenes. An invalid file adds a row.
 class BaselineCache {
  public:
   BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
@@ -145,8 +145,8 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// The other engine's quantities as expected values. Ignores quantities that only one of the two engines has; both have
-/// verdicts.
+/// The other engine's quantities as expected values. Ignores quantities that only one of the two engines has; a verdict
+/// is available from both.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;
@@ -155,7 +155,7 @@ std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTo
   return expected;
 }
 
-/// Blessed cases that no longer exist, because a method, an ingredient or a scene was removed.
+/// Rows of blessed cases that no longer exist, because a method, an ingredient or a scene was removed.
 std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
   std::set<std::pair<std::string, std::string>> selected;
   for (const Case& q : all)
@@ -212,7 +212,7 @@ RegressionResult regress(const Regression& regression, Progress& progress) {
         rows.insert(rows.end(), gone.begin(), gone.end());
       }
     } else {
-      continue;  // reported once per scene
+      continue;  // the missing baseline is reported once per scene
     }
     const std::vector<Comparison> more = compared(q, quantities_in(is->second), expected);
     rows.insert(rows.end(), more.begin(), more.end());
@@ -227,7 +227,7 @@ using CaseKey = std::pair<std::string, std::string>;  // method, without
 
 class Change {
  public:
-  /// Throws InputError if the file cannot be read, or if only a part of a stale one is selected.
+  /// Throws InputError if the file cannot be read, or if it is stale and only some of its cases are selected.
   Change(const Case& test_case, const Regression& regression, const Blessing& blessing) {
     auto old = read_baseline(regression.baselines, test_case.scene.name);
     const Selection& selection = regression.selection;
@@ -245,7 +245,8 @@ class Change {
     baseline_.blessings.push_back(blessing);
   }
 
-  /// Unchanged quantities keep their row and blessing. Throws InputError if a number is not finite.
+  /// Adds the quantities of a case. Unchanged quantities keep their row and blessing. Throws InputError if a number is
+  /// not finite.
   void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
     selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);

@@ -15,7 +15,7 @@ namespace crosscheck {
 
 struct Regression {
   Selection selection;
-  std::optional<Method> against;    // replaces the baselines and requires exactly one selected method
+  std::optional<Method> against;    // replaces the baselines; requires that exactly one method is selected
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder for finished points
   LockPatience patience = LockPatience();
@@ -23,25 +23,26 @@ struct Regression {
 
 struct RegressionResult {
   std::vector<Comparison> rows;       // in the order of the cases; failures of files come first
-  std::vector<FailedPoint> failures;  // cases without a result, i.e. crashes
+  std::vector<FailedPoint> failures;  // cases without a result, because of a crash
   /// True if some method accepted its scene.
   bool measured() const;
   bool passed() const;
 };
 
 /// Runs and compares all selected cases. Ignores baseline rows that are not selected (slow rows in a quick run, other
-/// methods). A scene without a baseline, or with that of another scene, fails; a new quantity or method does not.
+/// methods). Fails for a scene without a baseline or with the baseline of another scene, but not for a new quantity or
+/// method.
 RegressionResult regress(const Regression& regression, Progress& progress);
 
 struct BlessResult {
-  bool measured = false;                                             // some method accepted its scene
+  bool measured = false;                                             // true if some method accepted its scene
   std::vector<Comparison> changed;                                   // before and after
-  std::vector<std::pair<std::filesystem::path, std::string>> files;  // to be written, with their text
+  std::vector<std::pair<std::filesystem::path, std::string>> files;  // paths and contents of the files to write
   std::map<std::string, int> numbers;                                // number of the blessing in each changed baseline
 };
-/// Runs the cases with tolerances. Quantities that moved, are new or are gone enter the new baselines under this
-/// blessing; other rows keep theirs. Writes nothing. Throws InputError if a file cannot be read, if a case has no
-/// result, or if a stale file is selected in part (the rest would remain stale).
+/// Runs the cases with tolerances. Changed, new and removed quantities are recorded in the new baselines under this
+/// blessing; other rows are kept. Writes nothing. Throws InputError if a file cannot be read, if a case has no result,
+/// or if only some cases of a stale file are selected (the rest would remain stale).
 BlessResult bless(const Regression& regression, const Blessing& blessing, Progress& progress);
 
 }  // namespace crosscheck

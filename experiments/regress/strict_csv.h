@@ -15,9 +15,9 @@ namespace crosscheck {
 struct Blessing {
   std::string date, commit, build, reason;
 };
-/// "# blessing 2: DATE | COMMIT | BUILD | REASON"
+/// The line "# blessing 2: DATE | COMMIT | BUILD | REASON".
 std::string comment_line_of(const Blessing& blessing, size_t number);
-/// Parses the part after the colon. Throws InputError "expected ...", as do the functions below.
+/// Parses the text that follows the colon. Throws InputError "expected ...", as do the functions below.
 Blessing blessing_from(const std::string& text);
 
 /// The fields of a CSV line (RFC 4180, without line breaks inside fields).
@@ -28,12 +28,12 @@ double finite_number(const std::string& text, const std::string& what);
 /// A whole number from 1 to `most`.
 int number_up_to(size_t most, const std::string& text, const std::string& what);
 
-/// Replaces line breaks by blanks.
+/// Replaces line breaks by spaces.
 std::string one_line(std::string text);
 
 std::string without_prefix(const std::string& begin, const std::string& line);
 
-/// The `count` non-empty parts of "A | B | C"; `form`: the expected form, for the message.
+/// The `count` non-empty parts of "A | B | C". `form`: the expected form, which the message contains.
 std::vector<std::string> split_by_bars(const std::string& text, size_t count, const std::string& form);
 
 /// Reads comment lines, a header and rows. Inside read_strictly(), "FILE:LINE: " is prepended to the messages of
@@ -43,11 +43,11 @@ class StrictCsvReader {
   explicit StrictCsvReader(const std::filesystem::path& file) : in_(read_file(file, "a file of baselines")) {}
   const std::string& line() const { return line_; }
   int number() const { return number_; }
-  /// Throws InputError if there are no more lines.
+  /// Reads the next line. Throws InputError if there are no more lines.
   void next();
-  /// Reads the lines "# blessing 1: ...", "# blessing 2: ..." from the current one on.
+  /// Reads consecutive lines "# blessing 1: ...", "# blessing 2: ...", of which the current line is the first.
   std::vector<Blessing> blessings();
-  /// Reads from the line "# rows: N" on: further comments, the header, and N rows, which are passed to `add`.
+  /// Reads from the current line "# rows: N": further comments, the header, and N rows, which are passed to `add`.
   void rows(const std::string& header, const std::function<void(const std::string&)>& add);
 
  private:

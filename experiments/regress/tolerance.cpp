@@ -23,13 +23,13 @@ bool single(const Method& method, const CaseRun& case_run) {
 
 /// To two digits.
 double rounded_up(double tolerance) {
-  if (!(tolerance > 0)) return 0;  // all values of this unit are exactly zero
+  if (!(tolerance > 0)) return 0;  // all values with this unit are exactly zero
   const double unit = std::pow(10, std::floor(std::log10(tolerance)) - 1);
   return std::ceil(tolerance / unit) * unit;
 }
 
 /// Increases the speed of all free particles along one axis, so that they are displaced by `size` within the run. Equal
-/// roundings of all particles add up in the offset, where individual directions would average out.
+/// rounding errors of all particles add up in the mean offset, where independent directions would average out.
 Scene pushed(Scene scene, double size, int axis) {
   for (int i = 0; i < scene.start.v.cols(); ++i)
     if (!scene.model.particles.pinned[i]) scene.start.v(axis, i) += size / run_over_window(scene).duration;
@@ -40,8 +40,8 @@ double motion_in(const CaseRun& case_run) {
   return case_run.trajectory.frames() > 0 ? motion_of(case_run.trajectory) : 0;
 }
 
-/// Residual of one step's equation in positions, m. mysim's rules stop at 1e-12 of the inertial forces, or where the
-/// rounding of positions hides changes of the spring forces. The lightest particle has the largest error.
+/// Residual (m) of one step's equation, expressed in positions. mysim's rules stop at 1e-12 of the inertial forces, or
+/// where the rounding of positions hides changes of the spring forces. The lightest particle has the largest error.
 double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
   const Model& model = test_case.scene.model;
   double stiffest = 0, lightest = INFINITY;
@@ -53,12 +53,13 @@ double left_by_one_step(const Case& test_case, const CaseRun& case_run, double l
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// Error of a quantity from the steps: from solvers, and from sums over steps. With a damping rule, a change of the
-/// start does not reveal it: the effect of the change has vanished by the end, but the residual of the last steps has
-/// not.
+/// Error of a quantity that arises in the steps: from solvers, and from sums over steps. With a damping rule, a change
+/// of the start does not reveal this error: by the end the effect of the change has vanished, but the residual of the
+/// last steps has not.
 double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = case_run.outcome;
-  // a sum over steps of impulses times distances; for a particle at rest on a sphere, each is rounded in the same way
+  // this quantity sums impulses times distances over the steps; for a particle at rest on a sphere, all terms are
+  // rounded in the same way
   if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;
@@ -77,7 +78,7 @@ Rounding rounding_of(const Case& test_case, const CaseRun& case_run) {
     return {*single_precision_bound(test_case.scene, motion, 1, case_run.outcome.steps), "single precision"};
   if (solves(test_case.method))
     return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(test_case, case_run, lengths)};
-  // the bound is for ten thousand roundings that accumulate like a random walk
+  // round_off_bound() assumes ten thousand roundings, which accumulate like a random walk
   const double more = std::sqrt(std::max(1.0, static_cast<double>(case_run.outcome.evaluations) / 1e4));
   return {*round_off_bound(test_case.scene, motion, 1) * more, "double precision"};
 }
@@ -87,18 +88,18 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const std::vector<Quantity> quantities = quantities_of(test_case, whole);
   std::vector<QuantityWithTolerance> all;
   const Rounding rounding = rounding_of(test_case, case_run);
-  const double little = std::max(1e-10, rounding.size);  // m: far above the last digits of a number
+  const double little = std::max(1e-10, rounding.size);  // m: far larger than the last digits of a number
   const auto moved_by = [&](double size, unsigned seed) {
     Case other = test_case;
     other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
-    // if the moved scene has no closed form, its error refers to the closed form of the original scene
+    // the error also refers to the closed form of the original scene if the moved scene has none
     return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;
   for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
   const double less = 10 * rounding.size;
   const std::vector<Quantity> moved_less = less < little / 2 ? moved_by(less, 1) : std::vector<Quantity>{};
-  std::map<std::string, double> scale;  // by unit: bounds quantities that are zero except for rounding
+  std::map<std::string, double> scale;  // by unit, largest value: bounds quantities that are zero except for rounding
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
   const auto change_of = [&](const Quantity& q) {
@@ -115,7 +116,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     const Quantity* other = find(moved_less, q.name);
     return other && !q.is_word() && !q.count && grown(q) && std::abs(other->value - q.value) > 0.1 * change_of(q);
   };
-  // projections do not count: they change with the direction in which a start at rest is moved
+  // projections are not counted, because they change with the direction in which a start at rest is moved
   const bool chance = std::count_if(quantities.begin(), quantities.end(), [&](const Quantity& q) {
                         return !q.name.starts_with("places along") && saturated(q);
                       }) >= 3;
@@ -126,13 +127,14 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     }
     const double change = change_of(q);
     if (q.name == time_of_failure) {
-      // not scaled: the growth may have begun as a rounding error, so that the time depends on its logarithm
+      // the change is not scaled: the growth may have begun as a rounding error, so that the time depends on the
+      // error's logarithm
       all.push_back({q, rounded_up(change + q.error_bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.error_bar)});
       continue;
     }
     if (saturated(q) || (chance && grown(q))) {
-      // quantities in s are times of crossings, which may appear and disappear
+      // quantities in s are times at which a threshold is crossed; such crossings may appear and disappear
       const bool elsewhere = chance && q.unit == "s" && change > 0.01 * scale[q.unit];
       const double within = elsewhere ? scale[q.unit] : (chance ? 10 : 3) * change;
       all.push_back({q, rounded_up(within + q.error_bar),

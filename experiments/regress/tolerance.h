@@ -1,4 +1,4 @@
-// The tolerance of each quantity: the largest change that rounding explains, as measured.
+// The tolerance of each quantity: the largest change that rounding can explain, found by measurement.
 #pragma once
 
 #include "experiments/regress/cases.h"
@@ -11,18 +11,19 @@ struct QuantityWithTolerance {
   std::string derivation;  // short form; derivations.txt explains it
 };
 
-/// The total rounding error of a run, as a change of the start, m.
+/// The total rounding error of a run, expressed as a change (m) of the start.
 struct Rounding {
   double size;
   std::string kind;
-  double one_step = 0;  // m, residual of a step's equation, for rules that solve one
+  double one_step = 0;  // m, residual of the equation of a step, for rules that solve one
 };
 Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
 
 /// Moves the start by a small distance in three seeded sets of directions. The tolerance is the largest change of the
 /// quantity, scaled from that distance to the rounding error, plus the last digits of the number itself. A quantity
-/// that is zero except for rounding is bounded relative to the largest one of its unit. Not scaled: the time at which a
-/// run failed, and unpredictable quantities, which a fourth, much smaller change of the start reveals.
+/// that is zero except for rounding is bounded relative to the largest quantity with the same unit. Two kinds are not
+/// scaled: the time at which a run failed, and unpredictable quantities, which are revealed by a fourth, much smaller
+/// change of the start.
 std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case);
 
 }  // namespace crosscheck

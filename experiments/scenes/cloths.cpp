@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Well below leapfrog's limit, and at most the scene's own step.
+/// A step well below leapfrog's limit, and at most the scene's own step.
 double stable_step(const Scene& scene) {
   const double omega = highest_frequency(scene.model, scene.start);
   return omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
@@ -25,7 +25,7 @@ int other_size(const Grid& g, int n, bool of_u) {
   return std::max(2, 1 + static_cast<int>(std::lround(cells * (n - 1) / (longer - 1))));
 }
 
-/// Particles of grid b at the places of the pins of grid a.
+/// The particles of grid b at the positions that the pins have on grid a.
 std::vector<int> pins_on(const Grid& a, const Grid& b, const std::vector<int>& pins) {
   const std::set<int> pinned(pins.begin(), pins.end());
   std::set<int> in_edges, out;
@@ -56,7 +56,7 @@ std::optional<Grid> cloth_grid_of(const Scene& scene) {
   if (scene.triangles.empty()) return std::nullopt;
   const Grid grid = read_grid(TomlTable::parse_text(scene.source, scene.name).section("grid"));
   if (grid.nw > 1 || grid.size() != scene.model.particles.size()) return std::nullopt;
-  if (scene.model.find<Constraints>()) return std::nullopt;  // no stiffness to compare
+  if (scene.model.find<Constraints>()) return std::nullopt;  // the cloth has no stiffness to compare
   const TomlDocument file(scene.source, scene.name);
   if (file.has("spring") || file.has("constraint")) return std::nullopt;
   return grid;
@@ -111,13 +111,14 @@ Scene sized_cloth(int n, bool sphere) {
   constexpr double pi = std::numbers::pi;
   for (int i = 0; i < scene.start.x.cols(); ++i)
     scene.start.x(1, i) += 0.05 * std::sin(3 * pi * scene.start.x(0, i)) * std::sin(2 * pi * scene.start.x(2, i));
-  // the wave leaves the pins in place: at the corners, z = 0
+  // the wave does not move the pins, because sin(2 pi z) = 0 at the corners
   return scene;
 }
 
 Scene hanging_cloth(int n, const Stiffnesses& stiffnesses) {
   constexpr double mass = 0.25;  // kg
-  // omega^2 is at most 8 times the sum of the stiffnesses over the mass of a particle; leapfrog is stable up to 2/omega
+  // omega^2 is at most 8 times the sum of the stiffnesses divided by the mass of a particle; leapfrog is stable up to
+  // 2/omega
   const double omega = std::sqrt(8 * (stiffnesses.structural + stiffnesses.shear + stiffnesses.bend) * n * n / mass);
   return parse_scene(
       fmt::format("question = \"What does the same accuracy cost?\"\nparameters = \"a sheet hung by two corners\"\n"

@@ -8,13 +8,14 @@
 
 namespace crosscheck {
 
-/// The cloth grid of the scene's text. Nothing if there is none, if there are other elements (a block, single
-/// particles), or if the springs do not follow the grid.
+/// The cloth grid of the scene's text. Returns nullopt if the text has no grid, if there are other elements (a block,
+/// single particles), or if the springs do not follow the grid.
 std::optional<Grid> cloth_grid_of(const Scene& scene);
 
 /// The scene with n particles along the longer side of its cloth, and as many along the other side as preserve the
-/// shape of the cells. Pins keep their place on the material: a completely pinned edge remains pinned, other pins move
-/// to the nearest particle. The step is at most 0.7 of leapfrog's limit. Throws Unsupported without a cloth.
+/// shape of the cells. Pins stay at the same position on the material: a completely pinned edge remains pinned, other
+/// pins move to the nearest particle. The step is at most 0.7 of leapfrog's limit. Throws Unsupported if the scene has
+/// no cloth.
 Scene with_resolution(const Scene& scene, int n);
 
 /// Multiplies all spring stiffnesses by the factor, and adapts the step.
@@ -27,8 +28,8 @@ Points at_material_points(const Points& x, int nu, int nv, int m);
 
 /// cloth-hang with n x n particles: 1 m, 0.25 kg in total, 200 N/m for all three families, two corners pinned, drag
 /// 4/s. The step of 1e-2 s / n is 0.45 of the explicit limit at each size, because the mass of a particle scales as
-/// n^-2. Starts as a wave 5 cm high, so that springs pull from the first step on. `sphere`: with a sphere (0.3 m) below
-/// its middle.
+/// n^-2. Starts as a wave 5 cm high, so that springs pull from the first step on. `sphere`: adds a sphere with a radius
+/// of 0.3 m below the middle.
 Scene sized_cloth(int n, bool sphere = false);
 
 /// Spring stiffnesses, N/m.
@@ -37,15 +38,15 @@ struct Stiffnesses {
 };
 
 /// A cloth of n x n particles, 1 m by 1 m and 0.25 kg, initially flat, hanging by two corners of one edge; drag 5/s,
-/// gravity 9.81 m/s^2, duration 1 s. Damped so strongly that no wrinkle grows out of rounding, which would make the
-/// error of every method random. Its step is below every explicit rule's limit.
+/// gravity 9.81 m/s^2, duration 1 s. The damping is so strong that no wrinkles grow from rounding errors; wrinkles
+/// would make the error of every method random. Its step is below every explicit rule's limit.
 Scene hanging_cloth(int n, const Stiffnesses& stiffnesses = {});
 
 /// hanging_cloth() with equal structural and shear stiffness, as Bullet's own spring force requires.
 Scene hanging_cloth_of_two_stiffnesses(int n);
 
 /// hanging_cloth() with the law of Bullet's position-based links instead of Hooke's (mysim/terms/springs.h). The links
-/// converge to that law, so this separates the error of their solver from that of their model.
+/// converge to that law, so this cloth separates the error of their solver from that of their model.
 Scene hanging_cloth_of_links(int n);
 
 }  // namespace crosscheck

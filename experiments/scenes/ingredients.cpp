@@ -15,7 +15,7 @@ void drop(Model& model) {
   std::erase_if(model.terms, [](const Term& t) { return std::holds_alternative<T>(t); });
 }
 
-/// Requires other families as well.
+/// True if the model has springs of this family and of other families.
 template <Family family>
 bool has_family(const Model& model) {
   const auto* springs = model.find<Springs>();
@@ -24,7 +24,7 @@ bool has_family(const Model& model) {
       std::count_if(springs->list.begin(), springs->list.end(), [](const Spring& s) { return s.family == family; });
   return of_it > 0 && of_it < std::ssize(springs->list);
 }
-/// Removes a family of springs, with the dashpots between the same pairs.
+/// Removes a family of springs, and the dashpots between the same pairs of particles.
 template <Family family>
 void drop_family(Model& model) {
   std::set<std::pair<int, int>> pairs;
@@ -77,9 +77,9 @@ struct IngredientRow {
 
 const std::vector<IngredientRow>& table() {
   static const std::vector<IngredientRow> rows{
-      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // without it nothing moves, which no file can express
+      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // without rotation nothing moves; no file can express this
       {{"gravity", {"gravity"}, drop<Gravity>}, has<Gravity>},
-      // required in a grid's file
+      // structural springs are required in a grid's file
       {{"structural springs", {}, drop_family<Family::structural>}, has_family<Family::structural>},
       {{"shear springs", {"grid.stiffness.shear"}, drop_family<Family::shear>}, has_family<Family::shear>},
       {{"bend springs", {"grid.stiffness.bend"}, drop_family<Family::bend>}, has_family<Family::bend>},
@@ -116,7 +116,7 @@ const std::vector<IngredientRow>& table() {
        [](const Model& m) { return has<Planes>(m) && m.find<Planes>()->moving(); }},
       {{"motion of the pins", {"pins.motion"}, [](Model& m) { m.particles.move.reset(); }},
        [](const Model& m) { return m.particles.move.has_value(); }},
-      // not expressible in a file: without pins, the hard distances between them would reappear
+      // a file cannot express this: without pins, the hard distances between them would reappear
       {{"pins", {}, drop_pins}, has_pins},
   };
   return rows;

@@ -17,7 +17,7 @@ namespace {
 std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" / "scenes"; }
 std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
-/// Quick runs keep one cloth of each kind.
+/// Scenes of full runs only; quick runs keep one cloth of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
                                                   "floor-drop",  "cloth-small",      "room-bounce"};
@@ -104,7 +104,7 @@ Scene load_scene(const std::string& name, const std::string& methods) {
     return checked(folder_of_scenes() / (name + ".toml"), methods);
   const auto known = scenes_of_disagreements();
   if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name), methods);
-  std::error_code unreadable;  // then `name` is taken as a path, and the error is reported when the file is read
+  std::error_code unreadable;  // if set, `name` is taken as a path; reading the file then reports the error
   if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
       unreadable)
     return checked(name, methods);

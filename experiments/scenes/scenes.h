@@ -11,21 +11,21 @@
 
 namespace crosscheck {
 
-/// From simple to rich.
+/// Names of the shipped scenes, from simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
-/// The scenes of a quick run if none is named, with one of each kind.
+/// The scenes of a quick run for which no scene is named: the shipped scenes, with only one cloth of each kind.
 std::vector<std::string> quick_scenes();
 
 /// Finds a shipped scene or a known disagreement by name, or any TOML file by path. Throws InputError with a suggestion
-/// if there is none. Refuses a file whose method is a program, unless the command line names `methods` ("A,B,..."): the
-/// first of them then replaces it.
+/// if there is no such scene. Refuses a file whose method is a program, unless the command line names `methods`
+/// ("A,B,..."); the first of these methods then replaces that of the file.
 Scene load_scene(const std::string& name_or_path, const std::string& methods = "");
 
 std::filesystem::path file_of_disagreement(const std::string& name);
 
-/// All shipped scenes if `names` is empty. Throws InputError if two have the same name or the same file name, under
-/// which their rows or files would clash.
+/// All named scenes, or all shipped scenes if `names` is empty. Throws InputError if two have the same name or the same
+/// file name, because their rows or files would clash.
 std::vector<Scene> load_scenes(const std::vector<std::string>& names, const std::string& methods = "");
 
 }  // namespace crosscheck
