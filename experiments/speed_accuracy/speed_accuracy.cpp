@@ -44,7 +44,8 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
   if (method.adaptive) {
     for (double tolerance = 1e-2; tolerance > (full ? 5e-11 : 5e-9); tolerance /= 100) {
       const Setting setting{true, tolerance};
-      // if stability limits its steps, a loose tolerance costs as much as a tight one
+      // checks the time of adaptive methods: if stability limits their steps, a loose tolerance costs as much as a
+      // tight one
       if (!full && estimated_as_it_begins(method, scene, setting.applied_to(run)) > 1.3) {
         if (dropped) ++*dropped;
         continue;
@@ -72,12 +73,12 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole) {
   Run run = setting.applied_to(base);
-  if (!method.fingerprint.empty()) return {run};  // an external program, which takes an unknown time to start
-  const bool touches = has_contact(scene.model);  // contact may cost more than the fall before it
+  if (!method.fingerprint.empty()) return {run};  // external programs take an unknown time to start
+  const bool touches = has_contact(scene.model);  // contact may cost more than the fall before the contact
   if (method.adaptive && (touches || whole)) return {run};
-  const double enough = full ? 0.02 : 0.006;  // s: thousands of clock ticks
-  // s: shorter runs are timed whole. These are most of a quick report's runs; timing the others whole would take half a
-  // minute on one core
+  const double enough = full ? 0.02 : 0.006;  // s: equals thousands of clock ticks
+  // s. Cheaper runs are timed whole; they are the majority of a quick report's runs. Timing the others whole would take
+  // half a minute on one core
   const double cheap = full ? 0.2 : 0.012;
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
@@ -89,12 +90,12 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
     run.duration = base.duration * run.samples / base.samples;
     return {run, static_cast<double>(run.samples) / base.samples};
   }
-  // the clock is read at each sample, which takes 0.3 microseconds; one sample in 100 steps suffices to detect a
-  // blow-up
+  // the clock is read at each sample, which takes 0.3 microseconds; a blow-up is detected early enough with one sample
+  // in 100 steps
   const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
   int samples = std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
-  while (whole && steps % samples != 0) --samples;  // includes the last step
+  while (whole && steps % samples != 0) --samples;  // the samples must include the last step
   steps = steps / samples * samples;
   return {{time_grid(run).h, time_grid(run).h * static_cast<double>(steps), samples},
           static_cast<double>(steps) / static_cast<double>(all)};
@@ -122,8 +123,8 @@ struct SettingRun {
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method; empty if it does not support the scene. Notes report settings that it refused although it
-/// accepted others, and settings for which it built another scene.
+/// The runs of one method at the given settings; empty if it does not support the scene. Notes report settings that the
+/// method refused although it accepted others, and settings for which it built another scene.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
                                 std::vector<std::string>& notes) {
@@ -135,7 +136,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   for (const Setting& setting : settings) {
     Recorder recorder;
     Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder}, std::ref(bounds));
-    if (out.verdict == Verdict::unsupported) {  // at this step, but possibly not at others
+    if (out.verdict == Verdict::unsupported) {  // unsupported at this step, but possibly not at others
       refusal = out.reason, ++refused;
       continue;
     }
@@ -144,7 +145,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
       mismatch = true;
       continue;
     }
-    // a separate run, because observing every step makes adaptive methods take other steps
+    // the last frames come from a separate run, because observing every step changes the steps of adaptive methods
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
     if (recorded && out.verdict != Verdict::ok)
       run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
@@ -156,17 +157,18 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   return tries;
 }
 
-/// Default: all methods of mysim and Bullet, and the library integrators.
+/// The requested methods; by default, all methods of mysim and Bullet, and the library integrators.
 std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   std::vector<Method> methods = methods_of(request, scene);
   if (!request.methods.empty()) return methods;
-  // multistep formulas take hundreds of times as long on undamped springs, which `bench` shows on one scene
+  // without multistep formulas, which take hundreds of times as long on undamped springs; `bench` shows this on one
+  // scene
   for (Method& method : all_methods())
     if (method.family().role == Role::integrator && !method.multistep) methods.push_back(std::move(method));
   return methods;
 }
 
-/// Why a scene is left out; empty if it is not.
+/// Reason for which a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene, double motion) {
   // if nothing moves, a run of one step is as accurate as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
@@ -177,14 +179,14 @@ std::string why_not(const Scene& scene, double motion) {
 
 namespace {
 
-/// A scene as the experiment runs it, with its truth and its scales.
+/// A scene as the experiment runs it, with its reference solution and its scales.
 struct Judged {
   const Scene& scene;
   Run base;
   std::optional<Truth> truth;
   double motion = 0, until = 0;  // m, s
   bool under_contact_rule() const { return truth && truth->under_contact_rule; }
-  /// Largest error of a recommended run, m; nothing if no error is known.
+  /// Largest allowed error of a recommended run, m; nullopt if no error is known.
   std::optional<double> bound() const {
     if (!truth || under_contact_rule()) return std::nullopt;
     const double left = recommended_part * motion - truth->error_bar;
@@ -205,7 +207,7 @@ bool is_affordable(const Method& method, const Judged& of, const Setting& settin
          most_seconds(full);
 }
 
-/// Settings that the search for the cheapest run tries, by candidate method.
+/// The settings that the search for the cheapest run has tried, for each candidate method.
 std::map<std::string, std::vector<Setting>> searched_settings(const Request& request, const Judged& of,
                                                               MotionBoundsCache& bounds) {
   std::map<std::string, std::vector<Setting>> settings;
@@ -239,8 +241,8 @@ std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Set
   return settings;
 }
 
-/// Adds runs of another engine between the last step that misses the bound and the first that meets it, so that its
-/// cheapest run is found as precisely as mysim's.
+/// Adds runs of an external engine between the last step that misses the bound and the first step that meets it, so
+/// that the engine's cheapest run is found as precisely as mysim's.
 void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
             std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
   const auto bound = of.bound();
@@ -249,7 +251,7 @@ void refine(const Method& method, const Judged& of, const Request& request, Moti
   const auto add = [&](const SettingRun& run) {
     TriedRun tried = tried_run(of, run.outcome, run.trajectory);
     tried.method = method.name, tried.setting = run.setting;
-    // engines need not count evaluations, and their steps all cost the same
+    // the cost is the number of steps: engines need not count evaluations, and all their steps cost the same
     tried.cost = static_cast<double>(run.outcome.steps);
     return tried;
   };
@@ -304,7 +306,7 @@ SpeedAccuracyRow row_of(const Judged& of, const std::string& method, const Setti
 
 void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables) {
   Run base = run_of(request, scene);
-  base.timed = false;  // time_speed_accuracy() does that
+  base.timed = false;  // times are measured by time_speed_accuracy()
   Judged of{scene, base, truth_of(scene, base)};
   Recorder plain;
   if (!of.truth) run_method(find_method(scene.method), scene, base, {&plain});
@@ -354,14 +356,14 @@ struct TimedRow {
   const Method* method;
   TimedPart part;
   long evaluations = 0;
-  /// Time of the whole run, scaled up from the part, s.
+  /// Time (s) of the whole run, extrapolated from the timed part.
   Timing scaled(const Timing& t) const {
     const auto measured = static_cast<double>(evaluations), all = static_cast<double>(row->evaluations);
     return t.times(measured > 0 && all > 0 ? all / measured : 1 / part.share);
   }
 };
 
-/// The recommended run, its ties, and the cheapest run of each other engine.
+/// Rows of the recommended run, of the runs tied with it, and of the cheapest run of each other engine.
 std::vector<size_t> compared_rows(const std::vector<TimedRow>& timed, const std::vector<Timing>& times) {
   std::map<std::string, size_t> cheapest;  // by engine
   std::vector<size_t> compared;
@@ -413,15 +415,15 @@ void time_speed_accuracy(const Request& request, const Scene& scene, const Table
   }
   MotionBoundsCache bounds;  // cached, because short runs are repeated a thousand times
   const auto run_once = [&](TimedRow& run) {
-    // monitored, because after a blow-up a step of Bullet's worlds takes many times as long
+    // the bounds of motion stop the run, because after a blow-up a step of Bullet's worlds takes many times as long
     const Outcome out = run_method(*run.method, scene, run.part.run, {}, std::ref(bounds));
     run.evaluations = out.evaluations;
     return out.cpu_seconds;
   };
   std::vector<std::function<double()>> turns;
   for (TimedRow& run : timed) turns.push_back([&] { return run_once(run); });
-  // expensive runs are most of the work, and their times vary least. A first run of more than 0.2 ms takes as long as
-  // the second, to 1 % on average (measured for 934 runs)
+  // expensive runs are most of the work, and their times vary least. If a first run takes more than 0.2 ms, the second
+  // one takes the same time, to 1 % on average (measured for 934 runs)
   const auto samples =
       time_round_robin(turns, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
                                            : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.0005});

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double loosest = 1e-1, tightest = 1e-13;  // relative tolerances
 constexpr long most_steps = 1L << 22;               // between two samples
-constexpr double most_cost = 1e9;                   // a run of some seconds
+constexpr double most_cost = 1e9;                   // a run with this cost takes some seconds
 
 bool same_search(const TriedRun& a, const TriedRun& b) { return a.method == b.method && a.model == b.model; }
 
-/// A shorter step, or a tighter tolerance, of the same method and model.
+/// True if `a` has a shorter step, or a tighter tolerance, and the same method and model.
 bool is_finer(const TriedRun& a, const TriedRun& b) {
   return same_search(a, b) && a.setting.value < b.setting.value * (1 - 1e-9);
 }
@@ -166,15 +166,15 @@ std::optional<StepSearch::Step> StepSearch::finer(const Method& method, const Ru
   }
 }
 
-/// The next setting to try, given a method's runs so far and the cost of the best run of all methods; nothing if its
+/// The next setting to try, given a method's runs so far and the cost of the best run of all methods; nullopt if its
 /// search is complete.
 std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, double best) const {
   const Runs runs = known(method);
   if (!runs.empty() && runs.back()->verdict == Verdict::unsupported) return std::nullopt;
-  // the coarsest run from which on all finer ones are within the bound
+  // finds the coarsest run that is within the bound, as are all finer runs
   size_t first = runs.size();
   while (first > 0 && runs[first - 1]->is_within(bound_)) --first;
-  if (first + 1 >= runs.size()) return finer(method, runs);  // none, or only the finest, possibly by accident
+  if (first + 1 >= runs.size()) return finer(method, runs);  // none is within, or only the finest, maybe by accident
   const TriedRun& meets = *runs[first];
   const TriedRun* fails = first > 0 ? runs[first - 1] : nullptr;
   if (method.adaptive) {
@@ -182,7 +182,7 @@ std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, doub
       if (meets.setting.value >= loosest) return std::nullopt;
       return Step{std::min(loosest, 10 * meets.setting.value), meets.cost, 0};
     }
-    // the cost of a rule of fifth order scales as the fifth root of its tolerance
+    // the cost of a rule of fifth order scales as the inverse fifth root of its tolerance
     const double ratio = fails->setting.value / meets.setting.value, cheaper = std::pow(ratio, 0.2);
     if (cheaper <= step_resolution || meets.cost / cheaper > step_resolution * best) return std::nullopt;
     return Step{meets.setting.value * std::sqrt(ratio), meets.cost / std::sqrt(cheaper), meets.cost / cheaper};

@@ -11,7 +11,7 @@ namespace crosscheck {
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor) {
   std::erase_if(points, [](const WorkPrecisionPoint& p) { return !p.ok || !p.error; });
   for (WorkPrecisionPoint& p : points) p.error = std::max(*p.error, floor);
-  // at equal cost the more accurate one comes first; the other is then not on the front
+  // at equal cost the more accurate run comes first, so that the other one is not on the front
   std::stable_sort(points.begin(), points.end(), [](const WorkPrecisionPoint& a, const WorkPrecisionPoint& b) {
     return a.cost != b.cost ? a.cost < b.cost : *a.error < *b.error;
   });
@@ -43,7 +43,7 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 
 namespace {
 
-/// The runs of one scene, with evaluations as cost.
+/// The runs of one scene, whose cost is the number of evaluations.
 struct SceneRuns {
   std::string scene;
   double motion = 0;
@@ -67,7 +67,7 @@ std::vector<SceneRuns> runs_of(const Table& table) {
   return scenes;
 }
 
-/// The timed runs with their times as cost. Sets `noise`, and adds rows to `cost`.
+/// The timed runs, whose cost is their time. Sets `noise`, and adds rows to `cost`.
 std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vector<SpeedAccuracyTimingRow>& timing,
                                              double& noise, Table& cost) {
   std::vector<WorkPrecisionPoint> points;
@@ -76,7 +76,7 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
       if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.requested != p.requested)
         continue;
       const auto measured = static_cast<double>(row.evaluations);
-      // a failed run may end elsewhere when it is timed, without observer
+      // a failed run may end at another time when it is timed without an observer
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
       WorkPrecisionPoint timed = p;
       timed.time = Timing{row.cpu, row.cpu_low, row.cpu_high, row.repetitions}.times(factor);
@@ -107,7 +107,7 @@ void add_pareto(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& point
     add(table, ParetoRow<kind>{s.scene, p.cost, *p.error, p.method, p.setting, p.requested});
 }
 
-/// False for solvers that count only their steps, whose evaluations would be underestimated.
+/// False for solvers whose evaluations would be underestimated, because they count only their steps.
 bool counts_evaluations(const std::string& method) {
   const Method* known = builtin_without_options(method);
   return !known || known->counts_evaluations;
@@ -119,7 +119,7 @@ template <Cost kind>
 void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, double noise, Table& table) {
   if (!s.error_bar) return;
   for (const double part : parts_of_motion) {
-    // the error bar is subtracted, so that the accuracy is met wherever the truth lies within it
+    // the bound is reduced by the error bar, so that the accuracy is met wherever the truth lies within its error bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
     CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
     const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, is_first_peer),
@@ -146,7 +146,7 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
 
 void conclude_speed_accuracy(TableSet& tables) {
   const Table* results = tables.table(std::string(SpeedAccuracyRow::table));
-  if (!results) return;  // not in this part of a sweep
+  if (!results) return;  // this part of a sweep has no results of the experiment
   std::vector<SpeedAccuracyTimingRow> timing;
   const Table* timed = tables.table(std::string(SpeedAccuracyTimingRow::table));
   if (timed) timing = rows_of<SpeedAccuracyTimingRow>(*timed);
@@ -154,7 +154,7 @@ void conclude_speed_accuracy(TableSet& tables) {
         best = table_of<CheapestRow<Cost::evaluations>>(), best_time = table_of<CheapestRow<Cost::cpu>>(),
         cost = table_of<SpeedAccuracyCostRow>(), engines = table_of<EngineSpeedRow>();
   for (const SceneRuns& s : runs_of(*results)) {
-    // an external program need not count its evaluations
+    // omits external programs that do not count their evaluations
     std::vector<WorkPrecisionPoint> counted = s.points;
     std::erase_if(counted, [](const WorkPrecisionPoint& p) { return !(p.cost > 0) || !counts_evaluations(p.method); });
     add_pareto<Cost::evaluations>(s, counted, pareto);

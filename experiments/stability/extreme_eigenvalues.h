@@ -12,13 +12,14 @@ struct Eigenpair {
   Eigen::VectorXd vector;  // normalised
 };
 
-/// Nothing without convergence to the relative `tolerance`.
+/// Returns nullopt if the iteration does not converge to the relative `tolerance`.
 std::optional<Eigenpair> largest_eigenpair(const Eigen::SparseMatrix<double>& symmetric, double tolerance);
 
-/// The eigenpair nearest to `shift` of a symmetric matrix whose eigenvalues are all above `shift`.
+/// The smallest eigenvalue of a symmetric matrix and its eigenvector, found as the eigenpair nearest to `shift`. All
+/// eigenvalues must be above `shift`.
 std::optional<Eigenpair> eigenpair_above(const Eigen::SparseMatrix<double>& symmetric, double shift, double tolerance);
 
-/// Those of largest modulus of a general matrix; a conjugate pair counts as two.
+/// The `count` eigenvalues of largest modulus of a general matrix; a conjugate pair counts as two.
 std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::SparseMatrix<double>& square, int count,
                                                     double tolerance);
 

@@ -18,15 +18,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// NaN if the iteration did not converge.
+/// Returns NaN if the iteration did not converge.
 double largest_eigenvalue(const Eigen::SparseMatrix<double>& m) {
   if (m.rows() <= 400) return symmetric_eigenvalues(Eigen::MatrixXd(m))[m.rows() - 1];
   const auto found = largest_eigenpair(m, 1e-9);
   return found ? found->value : std::nan("");
 }
 
-/// The h in (0, top] at which the increasing function `excess` crosses zero; top if it does not; NaN if `excess` is
-/// NaN.
+/// The h in (0, top] at which the increasing function `excess` crosses zero; `top` if it does not cross zero; NaN if
+/// `excess` returns NaN.
 template <class Excess>
 double root_below(double top, Excess excess) {
   double at = excess(top), low = 0, high = top;
@@ -90,7 +90,8 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   if (system.size() > 90)
     return {0, -1, "damping and stiffness have different modes, and the step matrix of the whole scene is too large"};
   const LeapfrogMatrix leapfrog(system);
-  // eigenvalues of a neutral step are at 1, up to the square root of rounding where two of them meet
+  // eigenvalues of a neutral step are at 1; where two of them meet, they are off by the square root of the rounding
+  // error
   auto unstable = [&](double h) { return radius_of(rule, leapfrog, system.size(), h) > 1 + 1e-6; };
   constexpr int walk = 60;
   for (int i = 1; i <= 2 * walk; ++i)
@@ -100,9 +101,9 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   return {0, -1, "no limit up to twice that of the fastest mode without damping"};
 }
 
-/// True if the rule's stability region has the same depth to 15 % in all directions of decaying vibrations: then the
-/// fastest rates determine the limit. The depth for rk4 is 2.62 to 2.96; that of other rules goes to 0 or 1 near the
-/// imaginary axis.
+/// True if the rule's stability region has the same depth, to 15 %, in all directions of decaying vibrations, so that
+/// the fastest rates determine the limit. The depth is 2.62 to 2.96 for rk4; for other rules it tends to 0 or 1 near
+/// the imaginary axis.
 bool isotropic_region(const Stepper& rule) {
   double least = infinity, most = 0;
   for (int i = 0; i <= 20; ++i) {  // rates of modulus 1, from undamped to critically damped
@@ -122,7 +123,8 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   PredictedLimit least{infinity, -1, ""};
   for (size_t i = 0; i < spectrum.modes.size(); ++i) {
     const auto [omega, gamma] = spectrum.modes[i];
-    // rounding gives modes of free motion a small stiffness of either sign: 1e-7 is the root of the relative rounding
+    // rounding errors give modes of free motion a small stiffness of either sign; 1e-7 is the root of the relative
+    // error
     const double limit = rule.limit(omega > 1e-7 * spectrum.omega ? omega : 0, gamma);
     if (limit <= least.limit && std::isfinite(limit)) least = {limit, static_cast<int>(i), ""};
   }
@@ -144,7 +146,7 @@ PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
 
 namespace {
 
-/// The fast rate of a vibration and the other one, 1/s.
+/// The fast rate of a vibration, and its other rate, 1/s.
 struct Rates {
   std::complex<double> fast, other;
 };
@@ -153,8 +155,8 @@ Rates rates_of(const Vibration& m) {
   return {-m.gamma / 2 - root, -m.gamma / 2 + root};
 }
 
-/// Distance of the scene from rest, at the start and in the first and last tenth of the run. If each step multiplies
-/// the perturbed mode by a constant: also its amplitude at the start and at the end.
+/// Distance of the scene from rest at the start, and in the first and last tenth of the run. If each step multiplies
+/// the perturbed mode by a constant, also the amplitude of this mode at the start and at the end.
 class GrowthObserver : public Observer {
  public:
   GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)
@@ -193,7 +195,7 @@ class GrowthObserver : public Observer {
     if (state.v.cols() > 0) sum += system.weighted(state.v).squaredNorm();
     return std::sqrt(sum);
   }
-  /// |w' - other w|, which each step multiplies by the rule's factor for the fast rate; |x| for a rotation.
+  /// |w' - other w|, which each step multiplies by the rule's factor for the fast rate; for a rotation, |x|.
   double amplitude(const State& state) const {
     if (rotation_) return norm(state);
     const Linearised& system = base_.spectrum.system;
@@ -223,7 +225,7 @@ BaseState base_state_of(const Scene& scene) {
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
       const double length = (base.scene.start.x.col(s.a) - base.scene.start.x.col(s.b)).norm();
-      // coincident ends provide no scale: a perturbation relative to a millionth of the scene would vanish in rounding
+      // coincident ends provide no scale: a perturbation of a millionth of the scene's size would vanish in rounding
       if (length > 1e-6 * scene.size()) base.spacing = std::min(base.spacing, length);
     }
   return base;
@@ -259,7 +261,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
   push *= size / largest_column(push);
   scene.start.x += push;
   if (of_mode) scene.start.v += rates_of(s.modes[perturbation.mode]).fast.real() * push;
-  // a thousandth in every direction, from which an unstable mode other than the perturbed one can grow
+  // adds a thousandth in every direction, from which an unstable mode other than the perturbed one can grow
   for (int i = 0; i < scene.start.x.cols(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double part = 1e-3 * size * (2 * uniform(engine) - 1);
@@ -270,7 +272,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
 
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps, Perturbation perturbation,
                            std::vector<Observer*> observers, const MotionBoundsFunction& bounds) {
-  // rounding of some 1e-7 per step must remain small relative to the perturbation over thousands of steps
+  // rounding errors of about 1e-7 per step must remain small relative to the perturbation over thousands of steps
   constexpr double visible_in_single = 1e-2;
   if (method.family().single_precision || (method.identify && method.identify().single))
     perturbation.size = std::max(perturbation.size, visible_in_single);
@@ -283,14 +285,14 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   if (base.at_rest) observers.push_back(&growth_observer);
   const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers, bounds);
   PerturbedRun trial{out.verdict, out.reason, out.end};
-  // unknown rules, and rules that correct positions spring by spring, may rest in another state, and the motion to that
-  // state is no growth (except for a rotation about the origin)
+  // unknown rules, and rules that correct positions spring by spring, may have another state of rest, and the motion to
+  // that state is no growth (except for a rotation about the origin)
   const bool rests_there = rule && !rule->hard_constraints;
   if (growth_observer.first > 0 && (rests_there || rotation)) {
     trial.growth = growth_observer.last / growth_observer.first;
     // A fast-growing mode reaches the springs' nonlinearity within the first tenth and stays there. The amplitude of a
-    // stable mode is at most 1 / sqrt(1 - (h / limit)^2), which is 1000 at half a millionth below its limit: no search
-    // is as precise.
+    // stable mode is at most 1 / sqrt(1 - (h / limit)^2), which reaches 1000 only at half a millionth below the limit,
+    // and no search is that precise.
     constexpr double largest_swing = 1000;
     if (growth_observer.last > largest_swing * growth_observer.perturbation)
       trial.growth = growth_observer.last / growth_observer.perturbation;
@@ -336,7 +338,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   std::map<double, std::string> refused;  // by step
   bool accepted = false;
   MotionBoundsCache bounds;  // all trials have the same start
-  // other rules may rest elsewhere: the way there must be small relative to the perturbation
+  // other rules may have another state of rest; the distance to it must be small relative to the perturbation
   if (const Stepper* rule = stepper_of(method); !rule || rule->hard_constraints)
     perturbation.size = std::max(perturbation.size, 1e-3);
   const auto holds = [&](double h) {
@@ -345,8 +347,8 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
     accepted |= !trial.without_answer();
     return trial.held();
   };
-  // without drag, a rule that grows at h omega = 1/64 grows at every step; with drag, the limit is found even for a
-  // drag of a millionth of omega
+  // without drag, a rule that grows at h omega = 1/64 grows at every step; with drag, the limit is found even if the
+  // drag rate is only a millionth of omega
   const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
   // for h omega between one and five, steps increase by tenths: a composed rule may hold again beyond an unstable
   // interval (suzuki4 at 4.05, above its limit of 2.72), and doubling could skip that interval

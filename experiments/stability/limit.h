@@ -17,9 +17,9 @@ namespace crosscheck {
 inline bool is_runge_kutta(const Stepper& rule) { return rule.first_order; }
 
 struct PredictedLimit {
-  double limit = 0;     // s; 0: no step is stable; infinite: every step is
-  int mode = -1;        // index of the mode that determines the limit; -1: none, or not identified
-  std::string missing;  // why there is no prediction
+  double limit = 0;     // s; 0 if no step is stable, infinite if every step is stable
+  int mode = -1;        // index of the mode that determines the limit; -1 if none is identified
+  std::string missing;  // reason if there is no prediction
 };
 /// The smallest limit of the rule for any mode. If damping and stiffness do not commute:
 /// - Runge-Kutta rules use the individual eigenvalues of the first-order Jacobian.
@@ -31,24 +31,24 @@ struct PredictedLimit {
 /// have a prediction: rk4's is equal to 12 %.
 PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum);
 
-/// Prediction for the rule that the method follows; `missing` if it follows none, or a different one with this scene's
-/// ingredients.
+/// Prediction for the rule that the method follows; `missing` is set if the method follows no rule, or a different one
+/// with this scene's ingredients.
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum);
 
 /// The base state for a scene's stability: its equilibrium, or its initial state if there is none.
 struct BaseState {
   Scene scene;  // starts in the base state
   bool at_rest = false;
-  bool saddle = false;  // a saddle was found (and left, if at_rest)
-  Spectrum spectrum;    // about the base state
-  double spacing = 1;   // m, shortest spring of non-zero length: the scale for small perturbations
+  bool saddle = false;  // true if a saddle was found (and left, if at_rest)
+  Spectrum spectrum;    // linearised about the base state
+  double spacing = 1;   // m, length of the shortest spring of non-zero length: the scale for small perturbations
 };
 BaseState base_state_of(const Scene& scene);
 
 struct Perturbation {
-  int mode = -1;  // index of the mode; -1: the fastest shape of the stiffness
-  /// Times `spacing`. At sqrt(eps), rounding (eps / size per step) and nonlinearity (size) disturb linear motion
-  /// equally.
+  int mode = -1;  // index of the mode; -1 for the fastest shape of the stiffness
+  /// Size of the perturbation in units of `spacing`. At sqrt(eps), linear motion is disturbed equally by rounding (eps
+  /// / size per step) and by nonlinearity (size).
   double size = 1.5e-8;
 };
 
@@ -56,20 +56,20 @@ struct PerturbedRun {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double end = 0;        // s
-  double growth = 0;     // growth of sqrt(|w'|^2 + w K w) from the first to the last tenth of the run; 0: unknown
+  double growth = 0;     // ratio of sqrt(|w'|^2 + w K w) in the last tenth of the run to the first tenth; 0: unknown
   double per_step = 1;   // mean factor per step of the perturbed mode's amplitude (|x| for a rotation); 1: unknown
-  double amplitude = 1;  // final over initial amplitude of the perturbed mode
-  long steps = 0;        // if per_step and amplitude are known
-  bool of_mode = false;  // per_step and amplitude are known
+  double amplitude = 1;  // final amplitude of the perturbed mode divided by its initial amplitude
+  long steps = 0;        // number of steps if per_step and amplitude are known
+  bool of_mode = false;  // true if per_step and amplitude are known
   bool unsupported() const { return verdict == Verdict::unsupported; }
   /// True if the method refused the step, or its program died or took too long, which says nothing about stability.
   bool without_answer() const { return unsupported() || verdict == Verdict::crash || verdict == Verdict::timeout; }
-  /// True without failure or growth. A perturbed rest may grow by up to 1/20 over the run (beats of a neutral rule's
-  /// modes reach a thousandth). If a Runge-Kutta rule multiplies the mode by a constant factor, this factor is limited
-  /// too: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less than 1e-9 per step
-  /// counts as neutral, however long the run is.
+  /// True if the run neither failed nor grew. A perturbed rest may grow by up to 1/20 over the run (beats of a neutral
+  /// rule's modes reach a thousandth). If a Runge-Kutta rule multiplies the mode by a constant factor, this factor is
+  /// also limited: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less than 1e-9
+  /// per step counts as neutral, however long the run is.
   bool held() const;
-  /// The verdict, or `energy` if the run ended before the growing motion had more energy than the monitor allows.
+  /// The verdict, or `energy` if a growing motion ended before it reached the energy limit of the monitor.
   Verdict effective_verdict() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
@@ -81,14 +81,14 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
 Run run_of_perturbed(double h, long steps);
 Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 
-/// The largest step that `holds`: doubles and halves from `first` until one step holds and one fails, then bisects in
-/// the logarithm until failed / held - 1 <= precision. Stays between `lowest` and `highest`. Between `fine_above` and
-/// five times that, increases the step by a factor of 1.1 instead of 2.
+/// The largest step for which `holds` returns true. Doubles and halves from `first` until one step holds and one fails,
+/// then bisects in the logarithm until failed / held - 1 <= precision. Stays between `lowest` and `highest`. Between
+/// `fine_above` and five times that value, increases the step by a factor of 1.1 instead of 2.
 MeasuredLimit largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                            double precision, double fine_above = std::numeric_limits<double>::infinity());
-/// Measures that limit by trials, starting from the scene's own step. Theory only determines where the search ends (by
-/// the scene's fastest vibration). A step without an answer counts as failed. If the bracket ends at such a step, the
-/// result is `refused_above` instead of a limit; if every step was refused, it is `unsupported`.
+/// Measures the largest stable step by trials, starting from the scene's own step. Theory only determines where the
+/// search ends (by the scene's fastest vibration). A step without an answer counts as failed. If the bracket ends at
+/// such a step, the result is `refused_above` instead of a limit; if every step was refused, it is `unsupported`.
 MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, Perturbation perturbation,
                              double precision);
 

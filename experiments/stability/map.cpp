@@ -19,11 +19,12 @@ Scene with_gamma(Scene scene, double gamma) {
   return scene;
 }
 
-/// Relative size of the perturbation. Cells show actual blow-ups: a perturbation of a ten-thousandth of the springs'
-/// length grows until the monitor detects it.
+/// Size of the perturbation relative to the springs' length. Cells show actual blow-ups: the perturbation grows until
+/// the monitor detects it.
 constexpr double visible = 1e-4;
 
-/// Step of a column at relative position 0 <= part <= 1: h omega from 1/50 to 20, with omega of the original scene.
+/// Step of a column at relative position 0 <= part <= 1: h omega ranges from 1/50 to 20, with omega of the original
+/// scene.
 double step_at(double part, double omega) { return 0.02 / omega * std::pow(1000, part); }
 
 }  // namespace
@@ -47,7 +48,8 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it answers in no cell: {}",
                                        kind.name, method.name, scene.name, why));
   };
-  // an ingredient that the method does not support is missing in every cell: tries it once, at the shortest step
+  // An ingredient that the method does not support is missing in every cell, so the method is tried first, with a
+  // single shortest step.
   if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.without_answer())
     return no_map(first.reason);
   long changed = 0, accepted = 0;
@@ -58,7 +60,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     const BaseState base = base_state_of(kind.with(scene, value));
     const PredictedLimit predicted = predicted_limit(method, base.spectrum);
     const Perturbation perturbation{predicted.mode, visible};
-    double held = 0, failed = 0;  // the last cell that held before the first that failed
+    double held = 0, failed = 0;  // the last step that held before the first step that failed
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
       LastFrames pictures(base.spectrum.omega, h);
@@ -107,7 +109,7 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
   if (!full) return few ? MapSize{9, 12, 300, false} : MapSize{7, 9, 300, false};
   for (MapSize size : {MapSize{17, 25, 1000, false}, MapSize{9, 12, 1000, false}, MapSize{7, 9, 300, false}}) {
     const double cost = estimated_seconds(method, scene, size.steps * size.rows * size.columns);
-    size.check = cost < 0.1;  // takes ten times as long, and tiny scenes cost more than the estimate
+    size.check = cost < 0.1;  // the check takes ten times as long, and tiny scenes cost more than estimated
     if (cost < 4) return size;
   }
   return std::nullopt;
@@ -122,7 +124,7 @@ std::optional<Scene> map_scene(const Scene& scene, bool full) {
       small.name += "-6";
       return small;
     } catch (const InputError&) {
-      // the scene's text is valid only for its own grid
+      // the scene's text is valid for its own grid only
     }
   }
   return full ? std::optional(scene) : std::nullopt;

@@ -10,8 +10,9 @@
 namespace crosscheck {
 namespace {
 
-/// Upper bound of the fastest vibration (S. Gershgorin, 1931), rad/s: omega^2 <= max over particles a of the sum over
-/// its springs, and those equivalent to bending, of |k| / m_a + |k| / sqrt(m_a m_b), without pins.
+/// Upper bound of the fastest vibration (S. Gershgorin, 1931), rad/s. omega^2 is at most the maximum over particles a
+/// of the sum of |k| / m_a + |k| / sqrt(m_a m_b) over the particle's springs, including those equivalent to bending.
+/// Pins have infinite mass.
 double bound_of_frequency(const Model& model) {
   const Particles& particles = model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(particles.size());
@@ -36,7 +37,7 @@ double growth_per_step(const Stepper& rule, const Vibration& vibration, double h
       Eigen::Matrix2d m = each.of_mode(mode, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
       const double unit = vibration.omega > 0 ? vibration.omega : 1;
       m(0, 1) *= unit, m(1, 0) /= unit;
-      // roots of lambda^2 - trace lambda + determinant
+      // moduli of the roots of lambda^2 - trace lambda + determinant
       const double half = m.trace() / 2, determinant = m.determinant(), square = half * half - determinant;
       return square < 0 ? std::sqrt(determinant) : std::abs(half) + std::sqrt(square);
     }
@@ -59,7 +60,7 @@ std::string stability_warning(const Method& method, const Scene& scene, double h
         "step, tenfold in {:.3g} s",
         rule->name, omega, 100 * growth, h * std::log(10) / std::log1p(growth));
   }
-  // uses power iteration only if the bound is not sufficient
+  // power iteration is needed only if the bound is not sufficient
   if (rule->limit(bound_of_frequency(model), *gamma) > (1 + small) * h) return "";
   const double omega = highest_frequency_bound(model, scene.start), limit = rule->limit(omega, *gamma);
   if (limit > (1 + small) * h) return "";

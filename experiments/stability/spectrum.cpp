@@ -47,7 +47,7 @@ void dense_modes(Spectrum& s, double gamma) {
 void extreme_modes(Spectrum& s, double gamma) {
   const auto fast = largest_eigenpair(s.system.k, 1e-10);
   if (!fast) throw SolverFailure("the fastest mode was not found");
-  // shifted below zero, so that a free motion does not make the matrix singular
+  // the shift is below zero, so that a free motion does not make the matrix singular
   const auto slow = eigenpair_above(s.system.k, -1e-6 * fast->value, 1e-8);
   if (!slow) throw SolverFailure("the slowest mode was not found");
   s.modes = {{root_or_zero(slow->value), gamma}, {root_or_zero(fast->value), gamma}};
@@ -56,7 +56,7 @@ void extreme_modes(Spectrum& s, double gamma) {
   s.complete = false;
 }
 
-/// From the eigenvalues of ((0, I), (-K, -C)).
+/// Computes the modes from the eigenvalues of ((0, I), (-K, -C)).
 void quadratic_modes(Spectrum& s) {
   const int n = s.system.size();
   const Sparse c = s.system.damping();
@@ -68,7 +68,7 @@ void quadratic_modes(Spectrum& s) {
     a.bottomRightCorner(n, n) = -Eigen::MatrixXd(c);
     rates = eigenvalues(a);
   } else {
-    // velocities in units of the fastest mode, so that both halves have the same scale
+    // uses velocities in units of the fastest mode, so that both halves have the same scale
     const double unit = s.omega;
     std::vector<Eigen::Triplet<double>> parts;
     for (int i = 0; i < n; ++i) parts.emplace_back(i, n + i, unit);
@@ -163,7 +163,8 @@ Spectrum spectrum_of(const Scene& scene, const State& state) {
 
 namespace {
 
-/// Largest spring stiffness over particle mass, 1/s^2: the acceleration per extension that a spring could cause.
+/// Largest ratio of a spring's stiffness to a particle's mass, 1/s^2: the acceleration per extension that a spring
+/// could cause.
 double stiffest_of(const Model& model) {
   double stiffest = 0;
   for (const Spring& spring : model.find<Springs>()->list)
@@ -172,7 +173,7 @@ double stiffest_of(const Model& model) {
   return stiffest;
 }
 
-/// An equilibrium, rest or saddle, to the last digits.
+/// An equilibrium (rest or saddle), accurate to the last digits.
 std::optional<State> converged_rest(const Scene& scene) {
   const Model& model = scene.model;
   auto rest = rest_of(scene);
@@ -183,7 +184,7 @@ std::optional<State> converged_rest(const Scene& scene) {
   const double stiffest = stiffest_of(model);
   Workspace w(s);
   try {
-    // implicit Euler steps so long that they act as damped Newton steps towards the rest
+    // takes implicit Euler steps that are so long that they act as damped Newton steps towards the rest
     f.acceleration(s, a);
     for (int i = 0; i < 300 && largest_column(a) > 1e-12 * stiffest * scene.size(); ++i) {
       implicit_euler(f, s, 5, w);
@@ -198,7 +199,7 @@ std::optional<State> converged_rest(const Scene& scene) {
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;
-    // shifted from zero, so that a free motion does not make the matrix singular
+    // the shift from zero prevents that a free motion makes the matrix singular
     for (int i = 0; i < l.size(); ++i) k.coeffRef(i, i) += 1e-9 * stiffest;
     const Eigen::SimplicialLDLT<Sparse> solver(k);
     if (solver.info() != Eigen::Success) return std::nullopt;
@@ -214,8 +215,8 @@ std::optional<State> converged_rest(const Scene& scene) {
   return s;
 }
 
-/// True if the stiffness is negative in some direction: the signs of the pivots of K are those of its eigenvalues (J.
-/// J. Sylvester, 1852). Adds a billionth of the stiffest spring for rounding.
+/// True if the stiffness is negative in some direction, because the signs of the pivots of K are those of its
+/// eigenvalues (J. J. Sylvester, 1852). Adds a billionth of the largest stiffness to allow for rounding.
 bool is_saddle(const Model& model, const State& state) {
   const Linearised l = linearised(model, state);
   const double rounding = 1e-9 * stiffest_of(model);

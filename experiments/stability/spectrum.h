@@ -10,8 +10,8 @@
 
 namespace crosscheck {
 
-/// w'' = -K w - C w' for the free coordinates, w = sqrt(m) u with the offset u from the state (m). Neglects the air on
-/// triangles and the rotation of dashpots.
+/// The equation w'' = -K w - C w' of the free coordinates, where w = sqrt(m) u, and u is the offset from the state (m).
+/// Neglects the air on triangles and the rotation of dashpots.
 struct Linearised {
   std::vector<int> free;                 // coordinates 3 i + axis of the particles that are not pinned
   Eigen::VectorXd root_mass;             // sqrt(kg), for each free coordinate
@@ -21,9 +21,10 @@ struct Linearised {
 
   int size() const { return static_cast<int>(free.size()); }
   bool has_dashpots() const { return dashpots.nonZeros() > 0; }
-  /// C, with drag and dashpots.
+  /// The matrix C, with drag and dashpots.
   Eigen::SparseMatrix<double> damping() const;
-  /// Conversion of mass-weighted offsets to those of all particles (3 x n, m), and back. Pins have zero offset.
+  /// Converts mass-weighted offsets of the free coordinates to offsets of all particles (3 x n, m), and back. Pins have
+  /// zero offset.
   Points offsets(const Eigen::VectorXd& w, int particles) const;
   Eigen::VectorXd weighted(const Points& offsets) const;
 };
@@ -36,13 +37,14 @@ struct Vibration {
 
 struct Spectrum {
   Linearised system;
-  /// If all particles have the same drag rate and there are no dashpots: the modes of K, from slow to fast. Otherwise
-  /// each eigenvalue z of the first-order Jacobian, as the vibration with |z| and -2 Re z that has this eigenvalue.
+  /// If all particles have the same drag rate and there are no dashpots: the modes of K, from slow to fast. Otherwise,
+  /// each eigenvalue z of the first-order Jacobian is listed as the vibration with omega = |z| and gamma = -2 Re z,
+  /// which has this eigenvalue.
   std::vector<Vibration> modes;
-  Eigen::MatrixXd shapes;   // columns, mass-weighted and normalised; of the modes if `commuting`
-  Eigen::VectorXd fastest;  // fastest shape of K, mass-weighted and normalised
-  bool commuting = true;    // damping and stiffness have common modes
-  bool complete = true;     // false: only some modes, see spectrum_of()
+  Eigen::MatrixXd shapes;   // columns are shapes of the modes if `commuting`, mass-weighted and normalised
+  Eigen::VectorXd fastest;  // shape of the fastest mode of K, mass-weighted and normalised
+  bool commuting = true;    // true if damping and stiffness have common modes
+  bool complete = true;     // false if it has only some modes, see spectrum_of()
   double omega = 0;         // frequency of `fastest`, rad/s
 };
 
@@ -54,13 +56,13 @@ Spectrum spectrum_of(const Scene& scene, const State& state);
 
 struct Equilibrium {
   std::optional<State> rest;
-  bool saddle = false;  // a saddle was found on the way, and left
+  bool saddle = false;  // true if a saddle was found during the search
 };
 /// The state of rest of experiments/measures.h, refined by Newton steps to the last digits: no acceleration exceeds
 /// 1e-11 of what the particle's springs could cause. A rotation rests at the origin. An equilibrium with negative
 /// stiffness in some direction (omega^2 < 0) is a saddle, where motions that start in a plane of symmetry end, and is
 /// not accepted as rest. Random pushes of at least a hundredth of the shortest spring move the scene away from it,
-/// until a stable rest is found. After three attempts there is no rest.
+/// until a stable rest is found. The search ends without a rest after three attempts.
 Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

@@ -26,8 +26,9 @@ PredictionKind kind_of(const PredictedLimit& p) {
                                : PredictionKind::limit;
 }
 
-/// Adds the growth per step of the mode that determines the limit, at steps around the limit, or at a few steps if none
-/// is stable. The growth factor is so close to 1 there that runs until a blow-up would take millions of steps.
+/// Adds the growth per step of the mode that determines the limit, at steps around the limit, or at a few steps if no
+/// step is stable. In the latter case the growth factor is so close to 1 that runs until a blow-up would take millions
+/// of steps.
 void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
                 TableSet& tables) {
   const Spectrum& s = base.spectrum;
@@ -43,7 +44,7 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   for (const double h : steps) {
     const double expected = growth_per_step(rule, vibration, h);
     if (expected == 1) continue;
-    // enough steps to change the amplitude tenfold and to average over rounding, but affordable
+    // enough steps to change the amplitude tenfold, and to average over rounding errors, at a moderate cost
     const long count = std::clamp(std::lround(2.3 / std::abs(std::log(expected))), 100L, 2000L);
     const PerturbedRun trial = run_perturbed(method, base, h, count, {mode});
     if (!trial.of_mode) continue;
@@ -62,15 +63,15 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   tables.add(table);
 }
 
-/// True for the rule whose failure is shown: the cheapest second-order rule, which we recommend when stability limits
-/// the step.
+/// True for the rule whose failure is shown: the cheapest second-order rule, which the report recommends when stability
+/// limits the step.
 bool shows_failure(const Method& method) {
   return method.family().is_subject() && method.stepper &&
          method.name == fmt::format("{}/{}", subject().name, method.stepper->name) && method.stepper->order == 2 &&
          method.stepper->evaluations == 1 && method.stepper->symplectic;
 }
 
-/// One sample per step h, up to a failure.
+/// A run whose samples are h apart, with `per_sample` steps in between. It may end early with a failure.
 Trajectory steps_of(const Method& method, const Scene& scene, double h, int per_sample, int samples) {
   Recorder recorder;
   Run run{h / per_sample, h * samples, samples};
@@ -86,10 +87,10 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
   constexpr int most = 400, shown = 16;
   const double h = failing_step(limit);
   const Trajectory run = steps_of(method, scene, h, 1, most);
-  if (run.frames() > most) return;  // no failure from the scene's own start
+  if (run.frames() > most) return;  // the run from the scene's own start does not fail
   const Trajectory holds = steps_of(method, scene, h, 4, run.frames() - 1);
-  // pictures: the last frame in which no particle is farther from the stable run than half the scene's size, and some
-  // frames before it
+  // Pictures show the last frame in which no particle is farther from the stable run than half the scene's size, and
+  // some frames before it.
   const auto strayed = [&](int i) {
     return i >= holds.frames() || !run.x[i].allFinite() || largest_column(run.x[i] - holds.x[i]) > 0.5 * scene.size();
   };
@@ -118,7 +119,7 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
 
 namespace {
 
-/// Why a method is not measured; empty if it is.
+/// Reason for which a method is not measured; empty if it is.
 std::string why_not(const Method& method) {
   if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
@@ -126,22 +127,22 @@ std::string why_not(const Method& method) {
   return "";
 }
 
-/// True for large scenes with methods that solve an equation in each step and are stable at every step, or have no
-/// linear limit.
+/// True for large scenes with methods that have no linear limit: they solve an equation in each step and are stable at
+/// every step, or their rule is unknown.
 bool is_dear(const Method& method, const Scene& scene) {
   const Stepper* rule = stepper_of(method);
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// Both symplectic or neither, and both or neither with a stable step without drag.
+/// True if both rules or neither are symplectic, and both or neither have a stable step without drag.
 bool same_stability_class(const Stepper& a, const Stepper& b) {
   return a.symplectic == b.symplectic && (a.limit(1, 0) > 0) == (b.limit(1, 0) > 0);
 }
 
 bool has_linear_limit(const Stepper& rule) { return std::isfinite(rule.limit(1, 0)); }
 
-/// For scenes without rest: shows whether the motion is followed below a limit and lost above it, by errors relative to
-/// the truth at the nearest steps that divide the sampling interval.
+/// For scenes without a state of rest: shows whether a run follows the motion below a limit and loses it above, by
+/// errors relative to the truth at the nearest steps that divide the sampling interval.
 void add_errors_beside_limit(const Scene& scene, const Method& method, LimitRow& row) {
   const Run whole = default_run(scene);
   const auto truth = truth_of(scene, whole);
@@ -160,7 +161,7 @@ void add_errors_beside_limit(const Scene& scene, const Method& method, LimitRow&
     for (size_t i = 0; i < x.size(); ++i) {
       const size_t sample = i / steps_per_sample;
       const double part = static_cast<double>(i % steps_per_sample) / steps_per_sample;
-      // a failed run may end between samples, where linear interpolation of the truth is accurate enough
+      // a failed run may end between samples; linear interpolation of the truth is then accurate enough
       if (part == 0)
         error = std::max(error, rms_distance(x[i], known.x[sample]));
       else if (i + 1 == x.size())
@@ -187,11 +188,11 @@ bool is_mapped(const Method& method) {
 }
 
 Effort effort_for(const Method& method, const Scene& scene, bool full) {
-  const Effort least = is_dear(method, scene)              ? Effort{100, 0.5}  // only whether a step fails
+  const Effort least = is_dear(method, scene)              ? Effort{100, 0.5}  // shows only whether a step fails
                        : method.stepper || is_small(scene) ? Effort{4000, 0.002}
                                                            : Effort{1000, 0.01};
   if (!full) return least;
-  // a bisection takes about 25 runs, which take 0.5 s in total
+  // the 25 or so runs of a bisection may take 0.5 s in total
   const long steps = std::lround(0.5 / 25 / estimated_seconds(method, scene, 1));
   if (steps <= least.steps) return least;
   return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
@@ -220,7 +221,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
   if (measured.kind == MeasuredLimit::found) {
     row.measured = measured.limit(), row.precision = measured.precision();
     if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
-    // with a perturbation large enough to be visible
+    // uses a perturbation large enough to be visible
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
     if (!base.at_rest) add_errors_beside_limit(scene, method, row);
@@ -243,7 +244,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
 
 std::vector<Point> stability_points(const Request& request) {
   std::vector<Point> points;
-  // in a quick run, the maps of the cloth represent those of scenes with one or two vibrations
+  // in a quick run, the cloth's maps represent those of scenes with one or two vibrations
   const bool all_maps = request.full || request.scenes_only || !request.methods.empty();
   for (const Scene& scene : request.scenes) {
     const auto small = all_maps || !scene.triangles.empty() ? map_scene(scene, request.full) : std::nullopt;

@@ -1,4 +1,4 @@
-// The largest stable step of one method on one scene as a row, and the reasons for a deviation from the prediction.
+// Measures the largest stable step of one method on one scene as a row, and explains deviations from the prediction.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -6,7 +6,7 @@
 
 namespace crosscheck {
 
-/// Why a run may differ from theory, which describes small motion about one state.
+/// Reason for which a run may differ from theory, which describes small motion about one state.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
@@ -30,10 +30,10 @@ inline std::string saddle_note(const BaseState& base) {
              : "the only equilibrium found is a saddle, not a rest";
 }
 
-/// Why the measurement differs from theory, or why there is no prediction; empty if they agree.
+/// Reason for which the measurement differs from theory, or is not predicted; empty if they agree.
 inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
                               const MeasuredLimit& m) {
-  // a bracket is no more precise than its width
+  // the result of a bisection is no more precise than the width of its bracket
   const double enough = std::max(0.01, m.precision());
   switch (m.kind) {
     case MeasuredLimit::found:
@@ -52,27 +52,28 @@ inline std::string reason_for(const BaseState& base, const Method& method, const
 
 struct Effort {
   long steps;        // per run
-  double precision;  // at which the bisection ends
+  double precision;  // relative width of the bracket at which the bisection ends
 };
-/// Quick: fine on small scenes, coarse if each step solves an equation. Full: as fine as 0.5 s of CPU time permits.
+/// Quick runs: fine on small scenes, coarse if each step solves an equation. Full runs: as fine as 0.5 s of CPU time
+/// permits.
 Effort effort_for(const Method& method, const Scene& scene, bool full);
 
 /// Small scenes cost so little that every method is measured on them, with high precision.
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
-/// Adds a row of table stability, and rows of stability-growth if steps multiply modes.
+/// Adds a row of table stability and, if a step multiplies modes by a factor, rows of stability-growth.
 void add_limit(const Scene& scene, const Method& method, const Effort& effort, TableSet& tables);
 
 /// A step at which runs fail within several steps, but not within one.
 inline double failing_step(double limit) { return 1.75 * limit; }
 
 /// Adds rows of stability-failure: the last steps of a run at failing_step() from the scene's own start, four of which
-/// are shown in pictures, and a run that holds for comparison. Nothing if the run does not fail within 400 steps.
+/// are shown in pictures, and for comparison a run that holds. Adds nothing if the run does not fail within 400 steps.
 void add_failure(const Scene& scene, const Method& method, double limit, std::optional<double> growth,
                  TableSet& tables);
 
-/// True if the method's maps are drawn by default: the peers' methods, and for each way of failing the first rule of
-/// mysim that fails in that way.
+/// True if the method's maps are drawn by default. These are the methods of peers and, for each way of failing, the
+/// first rule of mysim that fails in that way.
 bool is_mapped(const Method& method);
 
 }  // namespace crosscheck

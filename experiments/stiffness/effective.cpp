@@ -1,6 +1,6 @@
 // A chain and a cloth hang from their upper ends. Their sag, and the period of their vertical oscillation, show the
-// effective stiffness under a method. Loads are so small that strains remain below some thousandths; the sag is then
-// proportional to 1 / k, and the period to 1 / sqrt(k).
+// effective stiffness that a method produces. Loads are so small that strains remain below some thousandths; the sag is
+// then proportional to 1 / k, and the period to 1 / sqrt(k).
 #include "experiments/stiffness/effective.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 struct Net {
   std::string name;
-  std::string text;  // scene file, without drag
+  std::string text;  // text of the scene file, without drag
   double omega;      // rad/s, approximate frequency of the slowest vibration along gravity
 };
 
@@ -33,8 +33,8 @@ std::string heading(double h) {
       h, -load);
 }
 
-/// Masses of 50 g on springs of 200 N/m and 0.1 m. The slowest vibration of n masses on a fixed end has the frequency 2
-/// sqrt(k/m) sin(pi / (4 n + 2)).
+/// Chain of masses of 50 g on springs of 200 N/m and 0.1 m. The slowest vibration of n masses with one fixed end has
+/// the frequency 2 sqrt(k/m) sin(pi / (4 n + 2)).
 Net hanging_chain_of(int masses) {
   const double mass = 0.05, k = 200;
   std::string text = heading(1e-3);
@@ -46,8 +46,8 @@ Net hanging_chain_of(int masses) {
           2 * std::sqrt(k / mass) * std::sin(std::numbers::pi / (4 * masses + 2))};
 }
 
-/// Particles of 10 g on structural, shear and bend springs of 50 N/m, held along the upper edge. A column of n rows
-/// below the edge behaves approximately like a chain of structural springs, which suffices to choose a duration.
+/// Cloth of particles of 10 g on structural, shear and bend springs of 50 N/m, pinned along the upper edge. A column of
+/// n rows below the edge behaves approximately like a chain of structural springs, which suffices to choose a duration.
 Net hanging_cloth_of(int side) {
   std::string text =
       heading(1e-3) + fmt::format(
@@ -59,13 +59,14 @@ Net hanging_cloth_of(int side) {
           2 * std::sqrt(50 / 0.01) * std::sin(std::numbers::pi / (4 * (side - 1) + 2))};
 }
 
-/// Final depth of the lowest particle below its start, m, with drag of rate omega. Nothing if the run fails, or if the
-/// depth changes by more than a thousandth in the last quarter of the run.
+/// Depth (m) of the lowest particle below its start at the end of a run with drag of rate omega. Returns nullopt if the
+/// run fails, or if the depth changes by more than a thousandth in the last quarter of the run.
 std::optional<double> sag(const Net& net, const Method& method, double step) {
   const Scene scene = parse_scene(net.text + fmt::format("[drag]\ngamma = {}\n", net.omega), "hanging-net");
   Recorder recorder;
-  // drag of rate omega reduces a vibration of frequency omega or above to exp(-omega t / 2), and one a fifth as fast,
-  // in a net that is 25 times softer, to exp(-omega t / 24): after 80 / omega at most a thirtieth is left
+  // drag of rate omega reduces a vibration of frequency omega or above to exp(-omega t / 2), and a vibration of a fifth
+  // of that frequency (of a net that is 25 times softer) to exp(-omega t / 24): after 80 / omega at most a thirtieth is
+  // left
   const Outcome out = run_method(method, scene, {step, 80 / net.omega, 4, 1e-6, false}, {&recorder});
   if (out.verdict != Verdict::ok) return std::nullopt;
   const auto depth = [&](int frame) {
@@ -75,11 +76,11 @@ std::optional<double> sag(const Net& net, const Method& method, double step) {
   return last > 0 && std::abs(last - depth(3)) < 1e-3 * last ? std::optional(last) : std::nullopt;
 }
 
-/// Period of the centre of mass after the net is released, without drag, s. Nothing if the run fails, if the method's
-/// own damping leaves fewer than three turning points, or if the step is too long to resolve them.
+/// Period (s) of the centre of mass after the net is released, without drag. Returns nullopt if the run fails, if the
+/// method's own damping leaves fewer than three turning points, or if the step is too long to resolve them.
 std::optional<double> period(const Net& net, const Method& method, double step) {
   const Scene scene = parse_scene(net.text, "hanging-net");
-  // four periods of a net that may be ten times softer
+  // four periods of a net that may be ten times as soft
   const double duration = 4 * 3 * 2 * std::numbers::pi / net.omega;
   Recorder recorder;
   const int steps = static_cast<int>(std::ceil(duration / step));
@@ -88,11 +89,12 @@ std::optional<double> period(const Net& net, const Method& method, double step) 
   std::vector<Vec3> path;
   for (const Points& x : recorder.trajectory.x) path.push_back(centre_of_mass(scene, x));
   const auto found = period_of_path(recorder.trajectory.t, path);
-  // a parabola through three samples locates a turning point if there are at least six steps between two of them
+  // a parabola through three samples locates a turning point if turning points are at least six steps apart
   return found && *found >= 12 * step ? found : std::nullopt;
 }
 
-/// A method over steps and iterations. sub_steps: methods with one pass per step, whose step is divided instead.
+/// A method to be tried at several steps and iterations. sub_steps: its step is divided instead, because it makes one
+/// pass per step.
 struct Choice {
   std::string_view method;
   enum class Iterations { none, option, sub_steps } iterations;

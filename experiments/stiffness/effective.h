@@ -1,4 +1,4 @@
-// Effective stiffness of hanging nets under position-based methods, over step and iterations.
+// Effective stiffness of hanging nets under position-based methods, depending on the step and the number of iterations.
 #pragma once
 
 #include <vector>

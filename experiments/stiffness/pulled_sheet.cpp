@@ -34,13 +34,13 @@ double energy_of(const Scene& scene, const Eigen::Matrix3d& strain) {
 
 StrainedNets::StrainedNets(const NetSprings& net)
     : cell_(std::pow(net.spacing, net.dimension)), dimension_(net.dimension) {
-  constexpr int least = 4;  // contains a skip-one spring and its neighbour
+  constexpr int least = 4;  // particles a side: the smallest net with a skip-one spring and a spring next to it
   for (int n = least; n <= least + net.dimension; ++n) scenes_.push_back(net_scene(net, n));
 }
 
 double StrainedNets::energy_density(const Eigen::Matrix3d& strain) const {
   const auto at = [&](size_t i) { return energy_of(scenes_[i], strain); };
-  // the second or third difference of a polynomial of that degree, divided by 2! or 3!
+  // the second or third difference, divided by 2! or 3!, is the leading coefficient of a polynomial of that degree
   return dimension_ == 2 ? (at(0) - 2 * at(1) + at(2)) / 2 / cell_
                          : (-at(0) + 3 * at(1) - 3 * at(2) + at(3)) / 6 / cell_;
 }

@@ -1,5 +1,5 @@
-// Experiment `stiffness`: the stiffness of a position-based link in N/m, compared with the formula that maps it; the
-// validity of the formula in a network; and the stiffness of hanging nets over step and iterations (effective.cpp).
+// Experiment `stiffness`: the stiffness of a position-based link in N/m, compared with the formula for it; the validity
+// of the formula in a network; and the stiffness of hanging nets, depending on step and iterations (effective.cpp).
 
 #include <fmt/format.h>
 
@@ -14,7 +14,8 @@
 namespace crosscheck {
 namespace {
 
-/// Masses (kg) that hang from a pin on links of k (N/m) and length 1 m, under g (m/s^2), with drag.
+/// Scene of masses (kg) that hang from a pin on links of stiffness k (N/m) and length 1 m, with gravity g (m/s^2) and
+/// drag.
 Scene hanging_chain(int masses, double mass, double k, double g, double gamma, double duration, double h) {
   std::string text = fmt::format(
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = 1\nstep = {}\nwindow = {}\n"
@@ -28,7 +29,7 @@ Scene hanging_chain(int masses, double mass, double k, double g, double gamma, d
   return parse_scene(text, "hanging-chain");
 }
 
-/// Displacement of the chain's end at the end of the run, m. The run must be long enough for it to come to rest.
+/// Displacement of the chain's end at the end of the run, m. The run must be long enough for the chain to come to rest.
 double sag(const Scene& scene, const std::string& method) {
   Recorder recorder;
   const Outcome out = run_method(find_method(method), scene, default_run(scene), {&recorder});
@@ -37,15 +38,16 @@ double sag(const Scene& scene, const std::string& method) {
   return first(1, first.cols() - 1) - last(1, last.cols() - 1);
 }
 
-/// One mass on one link, which falls by g h^2 in every step and is pulled back: force over extension at rest. It sinks
-/// by 1e-4 of the link's length, for which the link's law differs from Hooke's by 5e-5.
+/// A mass on a link: it falls by g h^2 in every step and is pulled back by the link. The stiffness is the force divided
+/// by the extension at rest. The mass sinks by 1e-4 of the link's length, for which the link's law differs from Hooke's
+/// by 5e-5.
 Table single_links(bool full, double h) {
   Table table = table_of<LinkStiffnessRow>();
   std::vector<double> shares = {0.02, 0.1, 0.5, 0.9};
   if (full) shares = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9};
   for (const int n : {1, 4, 10})
     for (const double kLST : shares) {
-      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to three digits
+      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to within three digits
       const double mass = 1, k = bullet::newton_per_metre(kLST, mass, h, n), K = k * h * h / mass,
                    g = 1e-4 * k / mass / (1 + K);
       // the remainder after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
@@ -57,7 +59,8 @@ Table single_links(bool full, double h) {
   return table;
 }
 
-/// Three masses: their sag relative to the exact one, for the k h^2 / mu of the links between masses (mu = m / 2).
+/// Chains of three masses: their sag relative to the exact sag, for several values of k h^2 / mu of the links between
+/// masses (mu = m / 2).
 Table networks(bool full, int n) {
   Table table = table_of<NetworkStiffnessRow>();
   const double mass = 0.1, k = 1000, g = 0.0981, expected = mass * g / k * 6;  // strain 3e-5 at most
