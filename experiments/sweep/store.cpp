@@ -47,8 +47,8 @@ PointList read_point_list(const std::filesystem::path& folder) {
 
 std::filesystem::path store_in(const std::filesystem::path& folder) { return folder / "points"; }
 
-// An empty cell is null, words are strings, whole numbers are integers, and numbers are floats. JSON has no NaN and no
-// infinity, which are written as {"number": "nan"}.
+// An empty cell is written as null, a word as a string, a whole number as an integer, and any other number as a float.
+// JSON has no NaN and no infinity, which are written as {"number": "nan"}.
 
 namespace {
 

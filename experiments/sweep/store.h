@@ -11,14 +11,14 @@
 
 namespace crosscheck {
 
-// Written next to the store, so that shards can be joined later.
+// List of a sweep's points, written next to the store, so that shards can be joined later.
 
 struct PointList {
   struct Entry {
     std::string name, hash;
     bool operator==(const Entry&) const = default;
   };
-  std::vector<std::string> experiments;  // experiments with conclusions from the rows of all points
+  std::vector<std::string> experiments;  // experiments that draw conclusions from the rows of all points
   std::vector<Entry> points;
   Provenance provenance;  // origin of the tables: command, commit, scenes, ...
 };
@@ -29,10 +29,10 @@ void write_point_list(const PointList& list, const std::filesystem::path& folder
 /// Throws InputError with the file's name and the expected content.
 PointList read_point_list(const std::filesystem::path& folder);
 
-/// The folder for points below the sweep's output folder.
+/// The folder for points inside the sweep's output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
-// JSON of a table set, which reads back to the same bits.
+// JSON of a table set. Reading it back restores the same bits.
 
 std::string table_set_json(const TableSet& set);
 TableSet read_table_set(const std::string& text);
@@ -43,11 +43,12 @@ class Store {
  public:
   explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {}
   bool has(const std::string& hash) const { return find(hash).has_value(); }
-  /// Nothing if the point is missing or its file cannot be read; `fault` gets the reason.
+  /// Returns nullopt if the point is missing, or if its file cannot be read, in which case `fault` is set to the
+  /// reason.
   std::optional<TableSet> find(const std::string& hash, std::string* fault = nullptr) const;
-  /// Writes under another name and renames, so that a killed run leaves only complete files.
+  /// Writes a temporary file and renames it, so that a killed run leaves only complete files.
   void keep(const std::string& hash, const TableSet& tables) const;
-  /// Stores the reason of a failure. The point remains missing, and the next keep() or run replaces the file.
+  /// Stores the reason of a failure. The point remains missing, and the file is replaced by the next keep() or run.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;

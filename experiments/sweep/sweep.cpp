@@ -21,7 +21,8 @@
 namespace crosscheck {
 namespace {
 
-/// Makes waitpid() work even if this program's parent ignores SIGCHLD: the system would then reap the children itself.
+/// Makes waitpid() work even if this program's parent ignores SIGCHLD, in which case the system would reap the children
+/// itself.
 class DefaultSigchld {
  public:
   DefaultSigchld() {
@@ -56,7 +57,7 @@ class Batch {
       announce();
       int status = 0;
       const pid_t pid = waitpid(-1, &status, WNOHANG);
-      if (pid < 0 && errno == ECHILD) break;  // other code waited for them; missing points are reported below
+      if (pid < 0 && errno == ECHILD) break;  // other code waited for the processes; missing points are reported below
       if (pid <= 0) {
         usleep(20000);
         continue;
@@ -93,15 +94,15 @@ class Batch {
   }
 
   void start(size_t worker) {
-    std::fflush(nullptr);  // otherwise the child would print it again
+    std::fflush(nullptr);  // otherwise the child would print buffered text again
     const pid_t parent = getpid(), pid = progress_.fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
-      // ends the worker if the sweep is killed, because a resumed sweep would compute the same points concurrently
+      // the worker ends if the sweep is killed, because a resumed sweep would compute the same points concurrently
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);
-      _exit(0);  // runs none of the parent's destructors
+      _exit(0);  // without the parent's destructors
     }
     pids_[worker] = pid;
   }

@@ -21,7 +21,7 @@ Shard shard_from(const std::string& text);
 
 struct SweepOptions {
   LockPatience patience;
-  int jobs = 0;  // concurrent processes; 0: one per core that this process may use
+  int jobs = 0;  // number of concurrent processes; 0: one per core that this process may use
   Shard shard = {};
 };
 
@@ -36,11 +36,12 @@ struct FailedPoint {
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress);
 
-/// The rows of all points in the order of the list, each from the first store that has it, and the conclusions of the
-/// list's experiments. Points that no store has are appended to `missing`, with the reason if a file cannot be read.
+/// The rows of all points in the order of the list, each taken from the first store that has it, and the conclusions of
+/// the list's experiments. Points that are in no store are appended to `missing`, with the reason if a file cannot be
+/// read.
 TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing);
 
-/// Computes all points in this process, without a store. Lets exceptions through.
+/// Computes all points in this process, without a store. Does not catch exceptions.
 TableSet computed(std::span<const Point> points);
 
 }  // namespace crosscheck

@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// Shared memory of the parent and its workers. A worker that dies leaves the index of its point behind.
+/// Memory shared by the parent and its workers. If a worker dies, the index of its point remains.
 struct WorkQueue {
   static constexpr int most_workers = 256;
   std::atomic<int> next{0};

@@ -4,7 +4,7 @@
 
 namespace crosscheck {
 
-/// A model is complete, lacks a single ingredient, or lacks an ingredient together with all before it.
+/// A model is complete, lacks a single ingredient, or lacks an ingredient together with all those removed before it.
 enum class ModelKind { full, single, cumulative };
 constexpr std::string_view name_of(ModelKind kind) {
   return kind == ModelKind::full ? "full" : kind == ModelKind::single ? "single" : "cumulative";
@@ -50,7 +50,7 @@ struct AdequacyRow {
   COLUMN(double, cost, "cost", "spring evaluations", "force evaluations times springs");
 };
 
-/// The smallest sufficient model of a scene at one tolerance. `holds` is about three other initial states.
+/// The smallest sufficient model of a scene at one tolerance. `holds` refers to three other initial states.
 struct LeastModelRow {
   TABLE("adequacy-least");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -1,11 +1,11 @@
-// Tables about balls keep the names that they had in reports of older versions.
+// Tables about balls keep the names that they had in the reports of older versions.
 #pragma once
 
 #include "experiments/tables/typed.h"
 
 namespace crosscheck {
 
-/// A particle on a slope sticks (hardly moves), slides (Coulomb's distance), or neither.
+/// A particle on a slope sticks (hardly moves), slides (by Coulomb's distance), or does neither.
 enum class ContactState { sticks, slides, neither };
 constexpr std::string_view name_of(ContactState state) {
   return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
@@ -64,12 +64,12 @@ struct ConeRow {
   COLUMN(ContactState, state_by_theory, "answer by theory", "1", "that answer by Coulomb's law");
 };
 
-/// On a plane. The friction coefficients next to the limit differ from it by a thousandth.
+/// A particle on a sloping plane. The friction coefficients next to the limit differ from it by a thousandth.
 struct PlaneConeRow : ConeRow {
   static constexpr std::string_view table = "plane-cone";
 };
 
-/// Motions on planes with a closed form, each characterised by a dimensionless number.
+/// Motions on planes that have a closed form. Each is characterised by a dimensionless number.
 enum class PlaneProbe { apex, period, loss, held };
 constexpr std::string_view name_of(PlaneProbe probe) {
   return probe == PlaneProbe::apex     ? "height of the third apex over that of the drop"

@@ -18,7 +18,7 @@ struct DisagreementRow {
   COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 
-/// A disagreement over time. The last column of each table is named after its quantity.
+/// A disagreement over time. Each of these tables names its last column after the disagreement's quantity.
 struct DisagreementCurveRow {
   TABLE("NAME-disagreement");
   COLUMN(std::string, curve, "curve", "1", "title of the curve");

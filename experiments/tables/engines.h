@@ -4,7 +4,7 @@
 
 namespace crosscheck {
 
-/// Tier of a truth. A limit of the in-house contact rule is a truth of that rule only.
+/// Tier of a truth. A limit of mysim's own contact rule is a truth of that rule only.
 struct TruthKind {
   Tier tier = Tier::exact;
   bool of_contact_rule = false;
@@ -113,7 +113,8 @@ struct EngineEnergyRow {
   COLUMN(OptionalNumber, contact_until, "contact until", "s", "end of the period that these three columns cover");
 };
 
-/// Statistics of a scene with contact: of sixteen perturbed runs, or of one run relative to the spread of such runs.
+/// Statistics of a scene with contact, either of sixteen perturbed runs, or of one run relative to the spread of such
+/// runs.
 struct StatisticRow {
   TABLE("SCENE-statistics");
   COLUMN(std::string, method, "method", "1", "method that was run");

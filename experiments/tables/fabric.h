@@ -4,7 +4,7 @@
 
 namespace crosscheck {
 
-/// A strip at rest that is clamped horizontally at one end.
+/// A strip clamped horizontally at one end, at rest.
 struct CantileverRow {
   TABLE("fabric-cantilevers");
   COLUMN(std::string, load, "load", "1", "what bends the strip");
@@ -16,7 +16,7 @@ struct CantileverRow {
   COLUMN(double, deviation, "deviation", "1", "drop over that of the elastica, less 1");
 };
 
-/// Small vibrations of the same strip without weight.
+/// Small vibrations of the strip without weight.
 struct StripVibrationRow {
   TABLE("fabric-vibrations");
   COLUMN(long, cells, "cells", "1", "cells along the strip");
@@ -26,7 +26,7 @@ struct StripVibrationRow {
   COLUMN(double, deviation, "deviation", "1", "frequency over that of the beam, less 1");
 };
 
-/// A strip with the bending term, and one whose skip-one springs give the same droop on one grid.
+/// A strip with the bending term, or one whose skip-one springs give the same droop on one of the grids.
 struct SkipOneRow {
   TABLE("fabric-skip-one");
   COLUMN(std::string, net, "net", "1", "model of the bending resistance");
@@ -45,7 +45,7 @@ struct HangingStripRow {
   COLUMN(double, deviation, "deviation", "1", "sag over the true sag, less 1");
 };
 
-/// The shape of that strip on one grid: the true curve, and the particles of the net.
+/// The shape of the hanging strip on one grid: the true curve, and the particles of the net.
 struct HangingShapeRow {
   TABLE("fabric-hanging-shapes");
   COLUMN(double, gamma, "gamma", "1", "weight per area x length^3 / rigidity; 0: without bending");
@@ -67,7 +67,7 @@ struct DrapedDiscRow {
   COLUMN(double, energy, "energy", "J", "elastic and gravitational energy above that of the flat sheet");
 };
 
-/// The drape of lowest energy on one grid.
+/// The shape of the drape with the lowest energy on one grid.
 struct DrapedParticleRow {
   TABLE("fabric-drape-shape");
   COLUMN(long, ring, "ring", "1", "number of the ring, from the edge of the disc outwards; the first two are pinned");

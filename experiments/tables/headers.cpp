@@ -1,1 +1,2 @@
-// No code: precompiles the headers that the rooms above mysim share, once for this target.
+// Contains no code: this target precompiles the headers shared by the modules above mysim, so that each is compiled
+// only once.

@@ -1,4 +1,4 @@
-// The answer of each engine to each question.
+// The answers of all engines to all questions.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ inline std::string_view name_of(SettingKind kind) { return kind == SettingKind::
 template <>
 inline constexpr std::pair range_of<SettingKind>{SettingKind::step, SettingKind::tolerance};
 
-/// The distance that measures accuracy: an error, or a difference from the converged contact rule.
+/// The distance that measures accuracy: an error, or a difference from the converged contact rule of mysim.
 enum class Measure { error, difference };
 inline std::string_view name_of(Measure measure) { return measure == Measure::error ? "error" : "difference"; }
 template <>
@@ -48,7 +48,7 @@ struct SpeedAccuracyRow {
   COLUMN(std::string, different_law, "different law", "1", "ingredients that the method models with a different law");
 };
 
-/// CPU time of the runs in `speed-accuracy`, or of their first part.
+/// CPU time of the runs in `speed-accuracy`, or of the first part of each run.
 struct SpeedAccuracyTimingRow {
   TABLE("speed-accuracy-timing-cost");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -82,7 +82,7 @@ struct SpeedAccuracyCostRow {
   COLUMN(std::string, build, "build", "1", "build that the timed code comes from");
 };
 
-/// No cheaper run is as accurate.
+/// A run on the Pareto front: no cheaper run is as accurate.
 template <Cost kind>
 struct ParetoRow {
   static constexpr bool timed = kind == Cost::cpu;

@@ -6,7 +6,7 @@
 
 namespace crosscheck {
 
-/// The state that a limit refers to: the scene's rest, or its start if there is no rest.
+/// The state to which a limit refers: the scene's state of rest, or its start if it has none.
 enum class LimitState { rest, start };
 inline std::string_view name_of(LimitState state) { return state == LimitState::rest ? "rest" : "start"; }
 template <>
@@ -22,11 +22,11 @@ inline constexpr std::pair range_of<PredictionKind>{PredictionKind::limit, Predi
 
 struct MeasuredLimit {
   enum Kind { found, no_step, every_step, refused_above, unsupported } kind = found;
-  double held = 0, failed = 0;  // s: the bracket; 0 if there is none
+  double held = 0, failed = 0;  // s: the steps at the ends of the bracket; 0 if there is no bracket
   std::string reason;           // for a refusal
   /// Geometric mean of the bracket, s.
   double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
-  /// Width of the bracket over its lower end.
+  /// Width of the bracket divided by its lower end.
   double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 

@@ -23,7 +23,7 @@ std::string text_of(const Cell& cell) {
   return "";
 }
 
-/// Escapes line feeds, which would end the comment line and turn the rest of the value into a row.
+/// Escapes line feeds. They would end the comment line, so that the rest of the value would become a row.
 std::string in_one_line(const std::string& value) {
   std::string out;
   for (const char c : value) out += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
@@ -162,7 +162,7 @@ std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row) 
 
 namespace {
 
-/// Calls `work` for each column with its index. Exceptions get the names of the table and column.
+/// Calls `work` for each column with its index. Adds the names of the table and column to exceptions.
 template <class Do>
 void with_each(std::span<const TypedColumn> typed, const Table& table, const Do& work) {
   for (size_t i = 0; i < typed.size(); ++i) try {

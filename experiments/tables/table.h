@@ -11,11 +11,11 @@
 
 namespace crosscheck {
 
-/// Empty: not applicable. nan and inf are allowed in failed rows only.
+/// A cell is empty if the quantity is not applicable. nan and inf are allowed in failed rows only.
 using Cell = std::variant<std::monostate, std::string, double, long>;
 inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
-/// `# key: value` lines above a table: the program that made the numbers, its input and its tools.
+/// `# key: value` lines above a table: the program that made the numbers, its inputs and its tools.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 struct Column {
@@ -24,22 +24,22 @@ struct Column {
 };
 
 struct Table {
-  std::string name;  // file name without .csv; names that end in -cost hold timings
+  std::string name;  // file name without .csv; tables whose names end in -cost contain timings
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
 
-  void add(std::vector<Cell> row);            // throws std::logic_error unless it has one cell per column
+  void add(std::vector<Cell> row);            // throws std::logic_error unless `row` has one cell per column
   int column(const std::string& name) const;  // throws std::out_of_range with the name
   const Cell& at(size_t row, const std::string& column) const { return rows[row][this->column(column)]; }
 };
 
-/// 17 significant digits, which read back to the same bits.
+/// Text of 17 significant digits, which is read back to the same bits.
 std::string exact_text(double value);
 
-/// Without the line feed.
+/// A line of a CSV file, without the line feed.
 std::string csv_row(const std::vector<Cell>& row);
 
-/// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
+/// Text of a CSV file according to RFC 4180 (comma, LF, quotes where needed) with one header row "name [unit]".
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);
 
@@ -60,12 +60,12 @@ inline std::optional<double> number_at(const Table& table, size_t row, const std
 inline double number_at(const Table& table, size_t row, const std::string& column, double otherwise) {
   return number_at(table, row, column).value_or(otherwise);
 }
-/// False if the cell is empty.
+/// True if the cell is 1; false if it is 0 or empty.
 inline bool flag_at(const Table& table, size_t row, const std::string& column) {
   const auto* flag = std::get_if<long>(&table.at(row, column));
   return flag && *flag != 0;
 }
-/// In order of first appearance.
+/// The distinct texts of a column, in order of first appearance.
 inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
   std::vector<std::string> all;
   for (size_t i = 0; i < table.rows.size(); ++i)
@@ -74,8 +74,8 @@ inline std::vector<std::string> distinct(const Table& table, const std::string& 
   return all;
 }
 
-/// Reads a table that write_csv() wrote, without its provenance. Whole numbers become long, others double. In a column
-/// with any other text, or without content, all cells are text. Throws InputError: "FILE:LINE: expected ...".
+/// Reads a table that write_csv() wrote, without its provenance. Whole numbers become long, other numbers double. A
+/// column that is empty or contains any other text is read as text. Throws InputError: "FILE:LINE: expected ...".
 Table read_csv(const std::filesystem::path& file);
 
 }  // namespace crosscheck

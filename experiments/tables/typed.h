@@ -1,4 +1,4 @@
-// Tables as structs: a row type declares its columns once, for writers and readers.
+// Tables as structs: a row type declares its columns in one place, for writers and readers.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 
 namespace crosscheck {
 
-/// First and last value of an enum, whose cells hold name_of(value). Specialised next to each enum.
+/// First and last value of an enum whose cells contain name_of(value). Specialised next to each enum.
 template <class Enum>
 inline constexpr std::pair<Enum, Enum> range_of;
 template <>
@@ -28,7 +28,7 @@ inline constexpr std::pair range_of<Tier>{Tier::exact, Tier::another_engine};
 template <class T>
 struct CellOf;
 
-/// Enums as name_of(value), bool as 1 or 0, an empty optional as an empty cell.
+/// Converts a value to a cell: enums as name_of(value), bool as 1 or 0, an empty optional as an empty cell.
 template <class T>
 Cell to_cell(const T& value) {
   return CellOf<T>::write(value);
@@ -46,7 +46,7 @@ struct CellOf<std::string> {
 template <>
 struct CellOf<double> {
   static Cell write(double value) { return value; }
-  static double read(const Cell& cell) {  // a file may contain whole numbers
+  static double read(const Cell& cell) {  // whole numbers in a file are read as long
     if (const auto* number = std::get_if<double>(&cell)) return *number;
     if (const auto* whole = std::get_if<long>(&cell)) return static_cast<double>(*whole);
     throw InputError("expected a number");
@@ -75,7 +75,7 @@ requires std::is_enum_v<Enum>
 struct CellOf<Enum> {
   static Cell write(Enum value) { return std::string(name_of(value)); }
   static Enum read(const Cell& cell) {
-    // read_csv() reads a column of nothing but the word "nan" as numbers
+    // read_csv() reads a column in which all cells are "nan" as numbers
     const auto* number = std::get_if<double>(&cell);
     const std::string word = number && std::isnan(*number) ? "nan" : CellOf<std::string>::read(cell);
     for (int i = static_cast<int>(range_of<Enum>.first); i <= static_cast<int>(range_of<Enum>.second); ++i)
@@ -83,7 +83,7 @@ struct CellOf<Enum> {
     throw InputError(fmt::format("unknown word '{}'", word));
   }
 };
-/// read_csv() reads an all-empty column as the text "", which counts as empty.
+/// read_csv() reads a column without content as text; the text "" counts as empty here.
 template <class T>
 struct CellOf<std::optional<T>> {
   static Cell write(const std::optional<T>& value) { return value ? CellOf<T>::write(*value) : Cell(); }
@@ -96,12 +96,12 @@ struct CellOf<std::optional<T>> {
   }
 };
 
-/// Type-erased functions for the members of one type.
+/// Type-erased functions for all members of one type.
 struct CellType {
   Cell (*write)(const void* member);
   void (*read)(void* member, const Cell& cell);
-  Cell (*retyped)(const Cell& cell);  // converts to the member's type: in a file, 2.0 looks like a count
-  std::string (*name)();              // for the data dictionary
+  Cell (*retyped)(const Cell& cell);  // converts to the member's type, because 2.0 in a file looks like a count
+  std::string (*name)();              // name of the type for the data dictionary
 };
 
 template <class T>
@@ -139,7 +139,7 @@ struct TypedColumn {
   std::ptrdiff_t offset;  // bytes
 };
 
-// Type-erased, because templates took a tenth of the suite's compile time.
+// Type-erased, because templates would take a tenth of the suite's compile time.
 
 std::vector<Column> columns_of(std::span<const TypedColumn> typed);
 std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row);
@@ -159,10 +159,11 @@ constexpr T initial_value() {
 
 using OptionalNumber = std::optional<double>;
 
-/// A line number in a header, which identifies a column and defines the order of columns.
+/// The line number in a header at which a column is declared. It identifies the column and defines the order of
+/// columns.
 template <int line>
 using Line = std::integral_constant<int, line>;
-inline constexpr int most_lines = 100;  // in the declaration of a row
+inline constexpr int most_lines = 100;  // largest number of lines in the declaration of a row type
 
 // A row type declares the name of its table, and then each member together with its column, one per line:
 //   struct ReboundRow {
@@ -184,7 +185,7 @@ inline constexpr int most_lines = 100;  // in the declaration of a row
   }                                                                                                   \
   static_assert(true)
 
-/// In the order of their lines.
+/// The columns of a row type in the order of their lines.
 template <class Row>
 std::span<const TypedColumn> typed_columns() {
   static const std::vector<TypedColumn> declared = [] {
@@ -207,7 +208,7 @@ std::vector<Column> columns_of() {
   return columns_of(typed_columns<Row>());
 }
 
-/// Tables that exist once per scene need a name.
+/// An empty table with the columns of a row type. Tables that exist once per scene need a name.
 template <class Row>
 Table table_of(std::string name = std::string(Row::table)) {
   return {std::move(name), columns_of<Row>(), {}};
@@ -218,7 +219,8 @@ void add(Table& table, const Row& row) {
   table.rows.push_back(cells_of(typed_columns<Row>(), &row));
 }
 
-/// Throws InputError with the name of the table if its columns differ, and of the column if a cell has another type.
+/// Converts a table to rows. Throws InputError with the name of the table if its columns differ, and also with that of
+/// the column if a cell has another type.
 template <class Row>
 std::vector<Row> rows_of(const Table& table) {
   require_columns(typed_columns<Row>(), table, Row::table);

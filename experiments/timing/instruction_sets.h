@@ -8,8 +8,8 @@
 
 namespace crosscheck {
 
-/// Restricts mysim's fast paths to an instruction set during its lifetime, as CROSSCHECK_INSTRUCTIONS does from
-/// outside. Not thread-safe.
+/// Restricts mysim's fast paths to an instruction set during its lifetime, as the variable CROSSCHECK_INSTRUCTIONS does
+/// for a whole process. Not thread-safe.
 class ScopedInstructionSet {
  public:
   explicit ScopedInstructionSet(simd::InstructionSet isa);
@@ -21,7 +21,7 @@ class ScopedInstructionSet {
   std::optional<std::string> before_;
 };
 
-/// The instruction sets in which mysim is timed: the machine's best (or that of CROSSCHECK_INSTRUCTIONS), and the
+/// The instruction sets in which mysim is timed: the machine's best one (or that of CROSSCHECK_INSTRUCTIONS), and the
 /// baseline, which the distribution's libraries use because they must run on every machine.
 std::vector<simd::InstructionSet> compared_instruction_sets();
 

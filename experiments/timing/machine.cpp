@@ -50,8 +50,8 @@ LockPatience::LockPatience(double seconds) {
 
 namespace {
 
-/// "process 12 (crosscheck report, begun at 12:03:04)" for the process that holds the lock; "another process" if none
-/// is visible, for example in another container.
+/// Describes the process that holds the lock as "process 12 (crosscheck report, begun at 12:03:04)". Returns "another
+/// process" if none is visible, for example because it runs in another container.
 std::string holder_of(int handle) {
   constexpr auto unknown = "another process";
   struct stat file {};
@@ -68,7 +68,7 @@ std::string holder_of(int handle) {
     std::string command;
     std::getline(in, command);
     for (char& c : command)
-      if (static_cast<unsigned char>(c) < ' ') c = ' ';  // arguments are terminated by zeros
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';  // arguments are separated by zeros
     struct stat begun {};
     std::string since;
     if (stat(fmt::format("/proc/{}", process).c_str(), &begun) == 0) {
@@ -96,7 +96,7 @@ MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
                  holder_of(handle_), file);
     const auto begun = std::chrono::steady_clock::now();
     usleep(50000);
-    // measured, because on a busy machine the pause takes longer
+    // subtracts the measured time, because on a busy machine the pause takes longer
     shared.left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
   if (!held_ && !shared.exhausted.exchange(true))

@@ -8,20 +8,20 @@
 
 namespace crosscheck {
 
-/// In the affinity mask, which batch systems and `taskset` set.
+/// Number of cores in the affinity mask, which batch systems and `taskset` set.
 int cores_allowed();
-/// Pins the process to the last core that it may use, so that its caches stay warm. Best effort.
+/// Pins the process to the last core that it may use, so that its caches stay warm. Ignores failures.
 void pin_to_one_core();
 
-// A lock on this machine for either many concurrent untimed points or one timed point, across all sweeps of this user,
-// so that shards on one machine do not disturb each other's timings.
+// A lock of this machine, shared by all sweeps of this user. It is held either by many concurrent untimed points or by
+// one timed point, so that shards on one machine do not disturb each other's timings.
 
 /// Total time for which one command may wait for locks, including its forked processes. A command creates one object
 /// and passes it to everything that computes or times; copies share the remaining time.
 class LockPatience {
  public:
   explicit LockPatience(double seconds = 60);
-  /// True if the time is used up and something was then measured next to other work.
+  /// True if the time was used up and something was then measured while other work was running.
   bool exhausted() const { return shared_->exhausted; }
 
  private:
@@ -39,10 +39,10 @@ constexpr auto timed_beside_other_work = "some times were measured beside other 
 class MachineLock {
  public:
   enum class Mode { shared, exclusive };
-  /// Waits for the lock as long as the patience lasts, and reports once on standard error who holds it and since when.
-  /// Then continues without the lock. The lock file is /tmp/crosscheck-UID.lock, regardless of TMPDIR, because batch
-  /// systems give each job its own TMPDIR; jobs with a private /tmp do not see each other. CROSSCHECK_LOCK names
-  /// another file, so that tests only wait for themselves. Without a lock file there is no wait.
+  /// Waits for the lock as long as the patience lasts, and reports once on standard error who holds the lock and since
+  /// when. Then continues without the lock. The lock file is /tmp/crosscheck-UID.lock, regardless of TMPDIR, because
+  /// batch systems give each job its own TMPDIR; jobs with a private /tmp do not see each other. CROSSCHECK_LOCK names
+  /// another file, so that tests wait only for each other. Does not wait if there is no lock file.
   MachineLock(Mode mode, const LockPatience& patience);
   /// False if another process may disturb the times.
   bool held() const { return held_; }

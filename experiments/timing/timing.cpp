@@ -10,7 +10,8 @@
 namespace crosscheck {
 namespace {
 
-/// The largest k for which fewer than k of n fair coins show heads with a probability of at most 0.05; at least 1.
+/// The largest k >= 1 such that n fair coins show fewer than k heads with a probability of at most 0.05; 1 if there is
+/// no such k.
 size_t rank_of_bound(size_t n) {
   double weight = std::pow(0.5, static_cast<double>(n)), below = 0;  // P(heads = k - 1), and P(heads < k)
   size_t k = 0;
@@ -33,7 +34,7 @@ double median_of(std::vector<double> values) {
 double mean_time(const std::function<double()>& run, double resolution) {
   double sum = 0;
   int count = 0;
-  // 1000: must also end if a run takes almost no time
+  // the limit of 1000 ends the loop even if a run takes almost no time
   do sum += run();
   while (++count < 1000 && sum < resolution);
   return sum / count;
@@ -106,7 +107,7 @@ bool differ(const Timing& a, const Timing& b, double noise) {
 
 namespace {
 
-/// The first part of a run as one sample, because sampling in between would cost as much as a few steps of a small
+/// The first part of a run, with a single sample, because more samples would cost as much as a few steps of a small
 /// scene.
 Run part_of(const TimedRun& turn, double share) {
   Run part = turn.run;
@@ -157,7 +158,7 @@ std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns
       return out.evaluations > 0 ? out.cpu_seconds / static_cast<double>(out.evaluations) : 0;
     });
   }
-  // a run returns the time per evaluation instead of its own time; its length is already sufficient
+  // each run returns the time per evaluation instead of its own time, and is already long enough
   const auto times = time_rounds(runs, plan.rounds);
   for (size_t i = 0; i < turns.size(); ++i)
     if (times[i] != std::vector<double>{0}) all[i].per_evaluation = times[i];
