@@ -30,8 +30,8 @@ double seconds_of_evaluation(const Method& method, const Scene& scene) {
 
 double estimated_seconds(const Method& method, const Scene& scene, const Run& run) {
   double evaluations = 1;  // per step
-  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim with the multigrid of cloth grids, and
-  // Bullet; mysim without multigrid on jelly at 1 to 7 ms
+  // iterations of conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms (mysim with the multigrid of
+  // cloth grids, and Bullet) and on jelly at 1 to 7 ms (mysim without multigrid)
   const double longer = time_grid(run).h / scene.step;
   if (const Stepper* rule = stepper_of(method))
     evaluations = rule->evaluations > 0  ? rule->evaluations
@@ -55,7 +55,7 @@ double estimated_seconds(const Method& method, const Scene& scene, long steps) {
 
 namespace {
 
-/// Exceeds any practical use: three hours at 10 ns, the cost of the cheapest step of one particle.
+/// More steps than any practical run: they take three hours at 10 ns, the cost of the cheapest step of one particle.
 constexpr double most_steps = 1e12;
 
 double springs_and_constraints_in(const Scene& scene) {
@@ -91,7 +91,7 @@ void require_memory_for(const Scene& scene, const std::string& what, double byte
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run) {
   const double particles = static_cast<double>(scene.start.x.cols()), springs = springs_and_constraints_in(scene);
   ResourceEstimate estimate{};
-  // as in time_grid(), without its refusal
+  // as in time_grid(), but does not refuse any number of steps
   const double interval = run.duration / run.samples;
   estimate.steps = run.samples * std::max(1., std::ceil(interval / run.step * (1 - 1e-9)));
   estimate.seconds =

@@ -61,15 +61,15 @@ std::string content_of(const Scene& scene) {
 }
 
 std::span<const Experiment> experiments() {
-  // undamped, so that the numerical damping of a rule is visible
+  // scenes without damping, in which the numerical damping of a rule is visible
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
-  // particles on balls; cloths, which show more, are probes of the experiment itself
+  // particles on balls; cloths would show more, but the experiment has its own probes with cloths
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
-  // all but the slowest: a cloth of hard lengths, and one on a ball
+  // all scenes but the slowest, which are a cloth of hard lengths and a cloth on a ball
   static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
                                                       "pendulum", "chain",      "chain-link",    "rod",
                                                       "slide",    "bounce",     "cloth-student", "cloth-hang"};
-  // moving scenes from small to large; the last is shared with the other experiments
+  // moving scenes from small to large; the last one is also charted by the other experiments
   static constexpr std::string_view speed_charts[] = {"pendulum", "chain", "cloth-hang"};
   // includes the hanging cloth, whose rest on a coarse grid is another example of how stiffness scales with the grid
   static constexpr std::string_view all_and_swing[] = {"circle",
@@ -87,7 +87,7 @@ std::span<const Experiment> experiments() {
                                                        "cloth-inextensible",
                                                        "cloth-swing",
                                                        "cloth-sphere"};
-  // with removable ingredients, or with several families of springs to compare
+  // scenes with ingredients that can be removed, or with several families of springs to compare
   static constexpr std::string_view cloths[] = {"cloth-student", "cloth-hang", "cloth-inextensible", "cloth-swing",
                                                 "cloth-sphere"};
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
@@ -126,7 +126,7 @@ std::span<const Experiment> experiments() {
 }
 
 const Experiment* experiment_named(std::string_view name) {
-  if (name == "sphere") name = "contact";  // former name, from before the experiment covered planes
+  if (name == "sphere") name = "contact";  // former name, used before the experiment covered planes
   const auto all = experiments();
   const auto found = std::ranges::find(all, name, &Experiment::name);
   return found == all.end() ? nullptr : &*found;
@@ -197,7 +197,7 @@ MethodResult& result_of(const Request& request, const Scene& scene, const Method
   if (!scene.model.first_order()) observers.push_back(&ledger);
   Outcome out = run_method(method, scene, run, observers);
   crossings.note(out);
-  const bool unsupported = out.verdict == Verdict::unsupported;  // possibly discovered during the run
+  const bool unsupported = out.verdict == Verdict::unsupported;  // the method may discover this only during the run
   if (unsupported) recorder.trajectory = {};
   return results.emplace_back(MethodResult{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
                                            unsupported ? std::vector<LedgerRow>() : ledger.rows(),

@@ -18,10 +18,10 @@
 
 namespace crosscheck {
 
-// A point is one piece of an experiment's work, independent of all others. A sweep computes points in any order, on any
-// machine, and keeps their tables.
+// A point is a unit of an experiment's work that does not depend on any other point. A sweep computes points in any
+// order, on any machine, and keeps their tables.
 
-/// The tables of one point, or of several: rows of tables of the same name are joined.
+/// The tables of one point or of several points. Rows of tables with the same name are joined.
 struct TableSet {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
@@ -30,11 +30,11 @@ struct TableSet {
   const Table* table(const std::string& name) const;
   /// Appends the rows to the table of the same name, or adds the table. Throws std::logic_error if the columns differ.
   void add(const Table& table);
-  /// Notes that exist already are not repeated.
+  /// Does not repeat notes that exist already.
   void append(const TableSet& other);
 };
 
-/// The rows of table Row::table; empty if there is no such table.
+/// The rows of table Row::table; empty if the set does not contain this table.
 template <class Row>
 std::vector<Row> rows_of(const TableSet& tables) {
   const Table* table = tables.table(std::string(Row::table));
@@ -43,7 +43,7 @@ std::vector<Row> rows_of(const TableSet& tables) {
 
 struct Point {
   std::string name;     // for human readers: "engines: cloth-hang"; unique in a sweep
-  std::string content;  // everything that its rows depend on, except the program
+  std::string content;  // everything on which the rows depend, except the program
   std::function<void(TableSet&)> compute;
   bool timed = false;    // measures time: runs alone, pinned to one core, after all others
   bool is_long = false;  // takes seconds: starts before the others, so that no core is idle at the end
@@ -52,23 +52,23 @@ struct Point {
   std::shared_ptr<const Point> after = {};
   std::function<void(const TableSet&, TableSet&)> compute_from = {};
 
-  /// Fingerprint of name, content and program: 16 hexadecimal digits. Differs between builds.
+  /// Fingerprint of name, content and program: 16 hexadecimal digits. It differs between builds.
   std::string hash() const;
 };
 
 Point timed_after(const Point& first, std::string name, std::function<void(const TableSet&, TableSet&)> compute_from);
 
-/// The data of a scene that rows depend on: name, hash, times, tolerance and default method.
+/// The data of a scene on which rows depend: name, hash, times, tolerance and default method.
 std::string content_of(const Scene& scene);
 
 struct RecordedRun {
   Outcome outcome;
-  Trajectory path;                  // its samples; for failed runs and cells of maps, the last frames; empty if refused
+  Trajectory path;                  // samples; for failed runs and cells of maps, the last frames; empty if refused
   std::optional<Points> rest = {};  // m, base state of a cell of a map
 };
 /// Runs of one method, in the order of the corresponding rows.
 struct RecordedRuns {
-  std::string of;  // "engines": one run, at the scene's own step; "speed-accuracy"; or "stiffness-map", "drag-map"
+  std::string of;  // "engines" (one run, at the scene's own step), "speed-accuracy", "stiffness-map" or "drag-map"
   const Scene& scene;
   std::string method;
   std::vector<RecordedRun> runs;
@@ -77,12 +77,12 @@ using RunCallback = std::function<void(const RecordedRuns&)>;
 
 struct Request {
   std::vector<Scene> scenes;
-  std::vector<Method> methods;  // empty: the default ones of each scene
+  std::vector<Method> methods;  // empty: the default methods of each scene
   bool full = false;            // more points of the same experiments
   double step = 0;              // s, for all fixed-step methods; 0: each scene's own step
   bool scenes_only = false;     // omits the experiments' own scenes
   bool all_engines = false;     // compares all engines: those in WebAssembly run small scenes only
-  std::string reference = {};   // method that `engines` measures differences from; empty: the subject's representative
+  std::string reference = {};   // `engines` measures differences from it; empty: the subject's representative
   RunCallback on_runs = {};     // receives the runs of engines, speed-accuracy and maps; rows do not depend on it
 };
 
@@ -90,20 +90,20 @@ struct MethodResult {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
-  std::vector<LedgerRow> ledger;  // empty in first-order scenes, without velocities and where unsupported
+  std::vector<LedgerRow> ledger;  // empty in first-order scenes, without velocities, and for unsupported scenes
   bool contact_inferred = false;
 };
 
 struct Experiment {
   std::string_view name, question;
-  /// Equal requests give equal lists.
+  /// Makes the points of a request; equal requests give equal lists.
   std::vector<Point> (*points)(const Request&);
-  /// The scenes of a quick run if no scene is named; empty: quick_scenes().
+  /// Scenes of a quick run for which no scene is named; empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are derived from the rows of all points.
   void (*conclude)(TableSet&) = nullptr;
-  /// The scenes that get their own charts and playable runs in a quick run if no scene is named. Other scenes appear in
-  /// tables and joint charts only. Empty: all scenes.
+  /// Scenes that get their own charts and playable runs in a quick run for which no scene is named. Other scenes appear
+  /// in tables and joint charts only. Empty: all scenes.
   std::span<const std::string_view> quick_charts = {};
 };
 
@@ -125,54 +125,55 @@ void conclude_matrix(TableSet& tables);
 void conclude_speed_accuracy(TableSet& tables);
 
 std::span<const Experiment> experiments();
-/// Accepts former names, too. Null if there is none.
+/// Also accepts former names. Returns nullptr if no experiment has this name.
 const Experiment* experiment_named(std::string_view name);
-/// Throws InputError with a suggestion if there is none.
+/// Throws InputError with a suggestion if no experiment has this name.
 const Experiment& find_experiment(const std::string& name);
 
-/// The named scenes or, if none is named, all shipped ones (in a quick run, the experiment's quick ones). `methods` as
-/// for load_scene().
+/// The named scenes or, if none are named, all shipped scenes (in a quick run, the quick scenes of the experiment).
+/// `methods` is passed to load_scene().
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full,
                               const std::string& methods = "");
 
-/// True if the scene has charts of its own. `all`: scenes were named, or the run is a full one. Throws as
+/// True if the scene has charts of its own. `all`: scenes were named, or the run is a full one. Throws InputError as
 /// find_experiment() does.
 bool has_own_charts(const std::string& experiment, const std::string& scene, bool all);
 
 void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
-/// All methods of mysim and Bullet except truth methods (the reference for the others), external integrators (not
-/// engines) and single precision (doubles the work and matters in few scenes).
+/// All methods of mysim and Bullet except three kinds: truth methods, which are the reference for the others; external
+/// integrators, which are not engines; and single precision, which doubles the work and matters in few scenes.
 std::vector<Method> default_methods();
-/// The named methods, or default_methods(). For scenes with contact, default methods include the assignment's sticky
-/// sphere, to show its failure.
+/// The requested methods or, if none are requested, default_methods(). For scenes with contact, the default also
+/// includes the assignment's sticky sphere, to show its failure.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
-/// A deque, so that references stay valid.
+/// A deque, because references to its elements stay valid when it grows.
 using MethodResults = std::deque<MethodResult>;
 
-/// The method's result on the scene at the request's step, taken from `results` or computed and appended.
+/// The method's result on the scene at the request's step, taken from `results` or, if missing, computed and appended.
 MethodResult& result_of(const Request& request, const Scene& scene, const Method& method, MethodResults& results);
 
 MethodResult recorded_result(const Method& method, const Scene& scene, const Run& run);
 
 /// Adds the tables SCENE-energy and engines-energy: the ledgers of the results at the request's step, and the contact
-/// loss next to that of the truth.
+/// loss together with that of the truth.
 void add_energies(const Request& request, const Scene& scene, const std::optional<Truth>& truth, MethodResults& results,
                   TableSet& tables);
 
 /// Runs experiment `engines` on one scene, and adds its results to `results`.
 void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 
-/// `compute` receives a request for that scene alone. The content is that of scene and request.
+/// One point for each scene of the request. `compute` receives a request with this scene only; the point's content is
+/// that of scene and request.
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
                                        void (*compute)(const Request&, const Scene&, TableSet&));
 
-/// The parts of a request that a scene's rows depend on: the methods, with the file fingerprints of external programs,
-/// the step and the number of points.
+/// The properties of a request on which a scene's rows depend: the methods (including the file fingerprints of external
+/// programs), the step and the number of points.
 std::string content_of(const Request& request, const Scene& scene);
 
-/// True if the method takes too long on the scene for a report of all engines.
+/// True if the method takes too long on the scene for a report that compares all engines.
 bool is_left_out(const Request& request, const Method& method, const Scene& scene);
 
 /// The scene's default run, at the request's step if it has one.

@@ -33,10 +33,12 @@ std::optional<State> rest_of(const Scene& scene) {
   Points a(3, s.x.cols());
   const double omega = highest_frequency(model, s);
   if (!(omega > 0)) return std::nullopt;
-  // 2 / omega is the stability limit at the start; stretching across the load only lowers a spring's frequency
+  // 2 / omega is the stability limit at the start; the load only lowers the frequency of a spring that it stretches
+  // sideways
   double h = 0.8 / omega, before = 0, scale = 0;
   constexpr int most_steps = 100000, check = 50;
-  // rounding error at rest: the forces cancel to a few ulps of the force of springs stretched over the scene's size
+  // rounding error at rest: the forces that cancel have errors of a few ulps of the force of springs stretched over the
+  // scene's size
   const double rounding = 1e-13 * omega * omega * scene.size();
   for (int i = 0; i < most_steps; ++i) {
     system.acceleration(s, a);
@@ -77,10 +79,10 @@ class StepObserver : public Observer {
   std::function<void(const State&)> look_;
 };
 
-/// Observes every step of a run of this duration (s); returns false if it failed.
+/// Observes every step of a run of `duration` (s); returns false if the run failed.
 using MeasuringRun = std::function<bool(double duration, const std::function<void(const State&)>& look)>;
 
-/// Leapfrog (xpbd for hard distances) with a step of h_omega over the highest frequency.
+/// A run with leapfrog (xpbd for hard distances) and a step of h_omega divided by the highest frequency.
 MeasuringRun run_at(const Scene& scene, double h_omega) {
   return [&scene, h_omega](double duration, const std::function<void(const State&)>& look) {
     const bool hard = scene.model.find<Constraints>() != nullptr;
@@ -98,20 +100,21 @@ MeasuringRun own_run(const Scene& scene) {
   return [&scene](double duration, const std::function<void(const State&)>& look) {
     Run run = default_run(scene);
     run.step = time_grid(run).h;
-    run.duration = std::ceil(duration / run.step) * run.step, run.samples = 1;  // keeps the step unchanged
+    run.duration = std::ceil(duration / run.step) * run.step, run.samples = 1;  // whole steps of this size
     StepObserver observer(look);
     return run_method(find_method(scene.method), scene, run, {&observer}).verdict == Verdict::ok;
   };
 }
 
-/// Measures by the runs that `by` names. Extrapolates an error of order 2, or of order 1 for xpbd.
+/// Measures with the kind of runs that `by` names. For converged runs, extrapolates an error of order 2 (order 1 for
+/// xpbd).
 template <class Measure>
 std::optional<double> measured(const Scene& scene, MeasuredBy by, Measure measure) {
   if (by == MeasuredBy::own_method) return measure(own_run(scene));
   if (by == MeasuredBy::one_run) return measure(run_at(scene, 0.5));
   const double gain = scene.model.find<Constraints>() ? 1 : 1. / 3;
   std::optional<double> value, better;
-  constexpr int most_halvings = 5;  // the error of the fastest vibration is then 1e-5, and less for slower ones
+  constexpr int most_halvings = 5;  // the fastest vibration then has an error of 1e-5, slower ones less
   for (int i = 0; i <= most_halvings; ++i) {
     const auto finer = measure(run_at(scene, std::ldexp(0.5, -i)));
     if (!finer) return std::nullopt;

@@ -101,7 +101,7 @@ double Growth::window() const {
 }
 
 Growth growth_of(const Method& method, const Scene& scene, const Run& given, const Trajectory* unperturbed) {
-  constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below the scale of any nonlinearity
+  constexpr double size = 1e-10;  // m: far above round-off (1e-16), and far below the scale of any nonlinearity
   Run run = given;
   run.timed = false;
   Recorder a, b;

@@ -1,4 +1,4 @@
-// Observers that experiments add to runs: the last frames of a run, and a limit on its CPU time.
+// Observers that experiments add to runs: the last frames of a run, and a limit on CPU time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace crosscheck {
 
 /// Keeps the last 25 frames of a run: eight per period of the vibration omega (rad/s), or every step if steps are
-/// longer than that or nothing vibrates. Thus no motion appears slower than it was.
+/// longer than that or nothing vibrates. Thus no motion appears to be slower than it was.
 class LastFrames : public Observer {
  public:
   LastFrames(double omega, double h)
@@ -35,7 +35,7 @@ class LastFrames : public Observer {
   std::deque<State> kept_;
 };
 
-/// Ends a run that takes too long: an adaptive rule takes ever shorter steps in an exploding motion.
+/// Ends a run that takes too long, because an adaptive rule takes ever shorter steps in an exploding motion.
 class TimeoutObserver : public Observer {
  public:
   explicit TimeoutObserver(double seconds)

@@ -7,12 +7,12 @@
 namespace crosscheck {
 namespace {
 
-/// Times of the turning points of y(t) that turn back by at least `least`, at the vertex of a parabola through three
-/// points.
+/// Times of those turning points of y(t) at which y turns back by at least `least`. Each is at the vertex of a parabola
+/// through three points.
 std::vector<double> turning_points(const std::vector<double>& t, const std::vector<double>& y, double least) {
   std::vector<double> out;
   size_t extreme = 0;
-  int going = 0;  // 1 up, -1 down, 0 not known yet
+  int going = 0;  // direction of y: 1 up, -1 down, 0 not known yet
   size_t low = 0, high = 0;
   for (size_t i = 1; i < y.size(); ++i) {
     if (going == 0) {
@@ -28,7 +28,7 @@ std::vector<double> turning_points(const std::vector<double>& t, const std::vect
     } else if (going * (y[extreme] - y[i]) >= least) {
       const size_t e = extreme;
       const double left = y[e] - y[e - 1], right = y[e + 1] - y[e];
-      // equal steps: the vertex lies within half a step
+      // the steps are equal, so the vertex lies within half a step
       const double shift = left == right ? 0 : 0.5 * (left + right) / (left - right);
       out.push_back(t[e] + std::clamp(shift, -0.5, 0.5) * (t[e + 1] - t[e]));
       going = -going;

@@ -1,4 +1,5 @@
-// Experiment `energy`: energies, losses and the residual of their balance in runs of up to a hundred thousand steps.
+// Experiment `energy`: energies, losses and the residual of the energy balance in runs of up to a hundred thousand
+// steps.
 
 #include <fmt/format.h>
 
@@ -15,11 +16,12 @@ namespace {
 
 constexpr long all_steps = 100000;
 constexpr int samples = 200;
-/// Rules that solve an equation in each step are meant for longer steps: this many times the scene's.
+/// Rules that solve an equation in each step are meant for long steps: their steps are longer than the scene's by this
+/// factor.
 constexpr int longer = 10;
 
-/// All energy sources and sinks: a cloth held by two moving corners swings in gusts against a ball, with drag and
-/// dashpots.
+/// A scene with all energy sources and sinks: a cloth whose two moving corners are pinned swings in gusts against a
+/// ball, with drag and dashpots.
 Scene everything() {
   return parse_scene(
       "question = \"Where does the energy go when everything acts at once?\"\n"
@@ -34,8 +36,9 @@ Scene everything() {
       "all-at-once");
 }
 
-/// The number of steps, at the scene's step, that determines the duration of all runs: as many as the slowest engine's
-/// representative takes within a CPU budget. A full run's budget suffices for all steps of a cloth of 10 x 10.
+/// Number of steps (of the scene's own length) that determines the duration of all runs: the number that the slowest
+/// engine's representative can take within a CPU budget. The budget of a full run suffices for all steps of a cloth of
+/// 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
   double of_all = 0;
@@ -77,7 +80,8 @@ EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& ou
   return row;
 }
 
-/// Adds two hundred rows at equal intervals, and the first ones of each decade.
+/// Adds two hundred rows at equal intervals, the first 40 rows, and rows at indices that grow by a factor of 1.12,
+/// which resolve the beginning.
 void add_thinned(Table& table, const Method& method, const ThinnedLedger& ledger, double duration) {
   const std::vector<LedgerRow>& rows = ledger.rows();
   double worst = 0, next = 0;
@@ -119,7 +123,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
                                        all_steps, scene.name, scene.model.particles.size(),
                                        request.full ? "" : "; --full takes more"));
 
-  // an adaptive rule may take millions of steps for stiff springs
+  // estimates the run first, because an adaptive rule may take millions of steps for stiff springs
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
     tables.notes.push_back(
         fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
@@ -127,7 +131,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
     return;
   }
 
-  // twenty thousand observations suffice to find the largest residual, and cost less than the steps
+  // twenty thousand observations suffice to find the largest residual, and take less time than the steps themselves
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
   if (out.verdict == Verdict::ok && ledger.rows().empty())

@@ -39,7 +39,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
   run.growth = early > 0 ? std::log10(run.worst / early) : 0;
   run.equivalent_drag = twice_kinetic > 0 ? -run.final / twice_kinetic : 0;
 
-  // rows are dense at the start: the weight of a row is the time since the previous one
+  // rows are dense at the start, so each row is weighted with the time since the previous row
   double weight = 0, mean_t = 0, mean_r = 0, tt = 0, tr = 0, rr = 0;
   const auto each = [&](auto&& use) {
     for (size_t i = 1; i < rows.size(); ++i) use(rows[i].t - rows[i - 1].t, rows[i].t, residual(rows[i]));
@@ -57,7 +57,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
 
 namespace {
 
-/// |R(i y)| of rules that treat x and v alike in one step.
+/// |R(i y)| of rules that treat x and v alike in a step; nullopt for other rules.
 std::optional<double> gain(const std::string& rule, double y) {
   const std::complex<double> z(0, y);
   if (rule == "explicit-euler") return std::abs(1. + z);
@@ -107,7 +107,8 @@ MeasuredDamping measured_damping(const Method& method, double h, int steps) {
     if (path.v[i].cols() != path.x[i].cols() || !path.x[i].allFinite()) continue;
     const double energy = energy_of(scene.model, {path.t[i], path.x[i], path.v[i]}).total();
     if (i == 0) first = energy;
-    // positions of 1 m are rounded by 1e-16, thus extensions of 1 mm by 1e-13: far below this bound the energy is noise
+    // the error of positions of 1 m is 1e-16 m, so that extensions of 1 mm have a relative error of 1e-13: far below
+    // this bound the energy is noise
     if (!(energy > 1e-10 * first) || !(energy < 1e10 * first)) break;
     logs.emplace_back(path.t[i], std::log(energy / first));
   }

@@ -18,7 +18,7 @@ namespace crosscheck {
 
 namespace {
 
-/// The largest value up to `until` (s); nothing if there is none.
+/// The largest value up to time `until` (s); nullopt if no row has a value.
 std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
                               double until) {
   double most = -1;
@@ -27,8 +27,8 @@ std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optio
   return most < 0 ? std::nullopt : std::optional(most);
 }
 
-/// Largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty if the rule has
-/// none or chooses its own steps, or if the particles' drag rates differ.
+/// Largest stable step (s) of the method's rule for the scene's fastest vibration at the start. Returns nullopt if the
+/// rule has no limit or chooses its own steps, or if the particles' drag rates differ.
 std::optional<double> predicted_limit(const Method& method, const Scene& scene, double omega) {
   const auto gamma = uniform_drag_rate(scene.model);
   if (const Stepper* rule = stepper_of(method); rule && !rule->adaptive && omega > 0 && gamma)
@@ -40,7 +40,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
   std::vector<Statistic> reference;   // statistics of the engine under test
-  constexpr double rounding = 1e-12;  // relative to the mean: a smaller spread is not due to the motion
+  constexpr double rounding = 1e-12;  // relative to the mean: a smaller spread is caused by rounding, not by the motion
   const auto add_rows = [&](const Method& method, const std::vector<Statistic>& statistics, bool of_one_run) {
     for (size_t i = 0; i < statistics.size(); ++i) {
       const Statistic& s = statistics[i];
@@ -52,7 +52,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     }
   };
   std::vector<std::string> perturbed_methods;
-  // representatives of the engines only: sixteen runs of every method would show no more
+  // only representatives of the engines are varied: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
@@ -71,7 +71,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     if (family.is_subject()) reference = statistics;
     perturbed_methods.push_back(method->name);
   }
-  // other methods: the existing run, if there is a spread to compare it with
+  // other methods use the existing run if there is a spread with which it can be compared
   for (const Method& method : methods_of(request, scene)) {
     const MethodResult& result = result_of(request, scene, method, results);
     const bool runs = result.outcome.verdict == Verdict::ok && result.trajectory.frames() > 0 &&
@@ -82,11 +82,11 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
   if (!table.rows.empty()) tables.add(table);
 }
 
-/// The truth and the run that all runs of a scene are compared with.
+/// The truth, and the run with which all runs of a scene are compared.
 struct Standards {
   Standards(const Request& request, const Scene& scene, const Run& run, MethodResults& results)
       : truth(truth_of(scene, run)),
-        // the distance from the converged in-house contact rule is a difference, not an error
+        // the distance from the converged contact rule of mysim is a difference, not an error
         of_rule(truth && truth->under_contact_rule) {
     const std::string of(request.reference.empty() ? subject().representative : request.reference);
     const auto requested = std::ranges::find(request.methods, of, &Method::name);
@@ -102,15 +102,16 @@ struct Standards {
   }
 
   std::optional<Truth> truth;
-  bool of_rule;          // the truth is that of the in-house contact rule
-  Method method;         // differences are measured from its run
+  bool of_rule;          // true if the truth is that of mysim's own contact rule
+  Method method;         // method whose run all other runs are compared with
   Trajectory reference;  // empty if that run failed
   Growth growing;
   double motion = 0;  // m
   double omega = 0;   // rad/s, fastest vibration at the start
 };
 
-/// Certifies the scene that another engine built. If it differs from the request, the run counts as unsupported.
+/// Certifies the scene that another engine built. If it differs from the requested scene, the run counts as
+/// unsupported.
 void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
   if (out.verdict == Verdict::unsupported || method.stepper) return;
   tables.certificates.push_back(certify(method.name, scene, out));
@@ -179,7 +180,7 @@ EngineRow summary_of(const Request& request, const Scene& scene, const Method& m
 
 EngineCostRow cost_of(const Scene& scene, const Method& method, const Outcome& out) {
   EngineCostRow row{.scene = scene.name, .method = method.name};
-  // an external program need not report its own time
+  // external programs need not report their own time
   if (out.process_seconds == 0 || out.cpu_seconds > 0) {
     row.cpu = out.cpu_seconds;
     if (out.steps) row.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);

@@ -24,7 +24,7 @@ Bending bending_of(const DrapedDisc& disc) {
                 before = disc.particle(i, j - 1), after = disc.particle(i, j + 1);
       if (i > 0 && i < rim)
         bending.list.push_back({3, {inside, here, outside}, {1, -2, 1}, disc.rigidity * area / std::pow(d, 4)});
-      // multiplied by 2 (1 - cos D) r^2, so that the weights along a ring are 1, -2, 1
+      // x_r / r + x_tt / r^2, multiplied by 2 (1 - cos D) r^2, so that the weights along a ring are 1, -2, 1
       const double around = chord * chord * r * r, k = disc.rigidity * area / (around * around);
       if (i > 0 && i < rim) {
         const double along = around / (2 * d * r);
@@ -34,7 +34,7 @@ Bending bending_of(const DrapedDisc& disc) {
         bending.list.push_back({4, {inside, before, here, after}, {-along, 1, -2 + along, 1}, k});
       }
       if (i < rim) {
-        // multiplied by 2 sin(D / 2) d r, with r at the midpoint
+        // (x_t / r)_r, multiplied by 2 sin(D / 2) d r with r at the midpoint
         const double middle = r + d / 2, in = middle / r, out = middle / (r + d);
         bending.list.push_back({4,
                                 {here, after, outside, disc.particle(i + 1, j + 1)},
@@ -69,7 +69,7 @@ Springs springs_of(const DrapedDisc& disc, const Points& flat) {
   return springs;
 }
 
-/// Lagrange weights of the values at 0, 1, 2 and 3.
+/// Lagrange weights of the values at 0, 1, 2 and 3 for interpolation at the position `at`.
 std::array<double, 4> cubic(double at) {
   std::array<double, 4> weights{1, 1, 1, 1};
   for (int i = 0; i < 4; ++i)
@@ -136,7 +136,8 @@ Points wavy(const DrapedDisc& disc, int waves, unsigned seed) {
 }
 
 Points on_net(const DrapedDisc& from, const Points& x, const DrapedDisc& to) {
-  // interpolates offsets from the flat sheet by cubics through four particles along a spoke and along a ring
+  // interpolates offsets from the flat sheet by cubics, which pass through four particles along a spoke and along a
+  // ring
   const Points offset = x - disc_scene(from).start.x;
   Points y = disc_scene(to).start.x;
   for (int i = 2; i <= to.rings + 1; ++i)
@@ -153,7 +154,7 @@ Points on_net(const DrapedDisc& from, const Points& x, const DrapedDisc& to) {
 }
 
 double drape_coefficient(const DrapedDisc& disc, const Points& x) {
-  // scans the specimen in rows; on each row, unites the intervals that triangles cover
+  // scans the specimen in rows; in each row, unites the intervals covered by triangles
   constexpr int rows = 2000;
   const double top = x.row(2).cwiseAbs().maxCoeff(), height = 2 * top / rows;
   std::vector<std::vector<std::pair<double, double>>> covered(rows);
@@ -194,8 +195,8 @@ double drape_coefficient(const DrapedDisc& disc, const Points& x) {
 }
 
 int nodes_of(const DrapedDisc& disc, const Points& x) {
-  // folds are wider than a twelfth of the rim: compares each point with those within a fiftieth of the rim on either
-  // side
+  // folds are wider than a twelfth of the rim, so each point is compared with those within a fiftieth of the rim on
+  // either side
   const int n = disc.spokes(), near = std::max(1, n / 50);
   const auto distance = [&](int j) {
     const Vec3 at = x.col(disc.particle(disc.rings + 1, j));

@@ -58,7 +58,7 @@ void vibrations(TableSet& tables) {
   tables.add(table);
 }
 
-/// Stiffness of skip-one springs (N/m) with which the strip droops like the elastica, by the secant method in
+/// Stiffness of skip-one springs (N/m) for which the strip droops like the elastica, found by the secant method in
 /// logarithms.
 double fitted_skip_one(StripNet net) {
   const double wanted = drop_of_elastica(net), d = continuum_of(net).length / net.cells;
@@ -67,8 +67,8 @@ double fitted_skip_one(StripNet net) {
     net.skip_one = std::exp(log_k);
     return std::log(drop_at_rest(net, guess) / wanted);
   };
-  // two links at an angle phi stretch a skip-one spring by d phi^2 / 4; initial guess: the energy of the bending term
-  // at half of the curvature at the clamp
+  // two links at an angle phi stretch a skip-one spring by d phi^2 / 4. In the initial guess, its energy is that of the
+  // bending term at half of the curvature at the clamp
   const double curvature = net.gamma / 4 / continuum_of(net).length;
   double a = std::log(8 * continuum_of(net).rigidity / (curvature * curvature * std::pow(d, 4))), b = a + 0.5;
   double at_a = missed(a), at_b = missed(b);
@@ -107,7 +107,7 @@ void hanging(TableSet& tables) {
       if (!rest) throw std::runtime_error("a hanging strip found no rest");
       const double sag = sag_of(net, *rest), truth = strip.sag() / strip_length;
       add(table, HangingStripRow{cells, gamma, sag, truth, sag / truth - 1});
-      constexpr int drawn = 16, fine = 4;  // cells of the net in the figure, points of the curve per cell
+      constexpr int drawn = 16, fine = 4;  // cells of the net in the figure; points of the curve per cell
       if (cells == drawn)
         for (int i = 0; i <= drawn * fine; ++i) {
           const HangingStrip::Place place = strip.at(strip_length * (static_cast<double>(i) / (drawn * fine) - 0.5));
@@ -120,7 +120,7 @@ void hanging(TableSet& tables) {
   tables.add(shapes);
 }
 
-/// Gives the draped cloth a bending length (B / w)^(1/3) of 2.4 cm.
+/// Rigidity for which the draped cloth has a bending length (B / w)^(1/3) of 2.4 cm.
 constexpr double draped_rigidity = 2e-5;  // N m
 
 struct Drape {
@@ -130,7 +130,7 @@ struct Drape {
   double energy;
 };
 
-/// Nothing if there is no rest near the guess.
+/// Returns nullopt if there is no rest near the guess.
 std::optional<Drape> drape_from(const DrapedDisc& disc, const std::string& start, const Points& guess) {
   const Scene scene = disc_scene(disc);
   const auto rest = rest_near(scene, guess);
@@ -144,7 +144,7 @@ void add_drape(Table& table, const Drape& drape) {
                            nodes_of(drape.disc, drape.rest), drape_coefficient(drape.disc, drape.rest), drape.energy});
 }
 
-/// Searches from several starts on a coarse net, and follows the lowest rest to finer nets.
+/// Searches a rest from several starts on a coarse net, and follows the lowest one to finer nets.
 void drapes(TableSet& tables, int finest, int most_waves, unsigned random_starts) {
   Table table = table_of<DrapedDiscRow>(), shape = table_of<DrapedParticleRow>();
   std::vector<Drape> found;

@@ -26,7 +26,7 @@ std::optional<Points> rest_near(const Scene& scene, const Points& guess) {
   double lowest = energy(s), shift = 0;
   Linearised l = linearised(model, s);
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-  solver.analyzePattern(l.k);  // same pattern in every state
+  solver.analyzePattern(l.k);  // the pattern is the same in every state
   constexpr int most = 5000;
   for (int i = 0; i < most; ++i) {
     const double stiffest = l.k.diagonal().maxCoeff();
@@ -44,10 +44,10 @@ std::optional<Points> rest_near(const Scene& scene, const Points& guess) {
         l = linearised(model, s);
         continue;
       }
-      // no step halves the forces or lowers the energy by more than its rounding: the remaining forces come from the
-      // rounding of stiff springs
+      // no step halves the forces, or lowers the energy by more than its rounding error: the remaining forces come from
+      // the rounding of stiff springs
       if (largest_column(a) <= 1e-4 * gravity) {
-        if (shift <= 1e-9 * stiffest) return s.x;  // positive definite even with a smaller shift
+        if (shift <= 1e-9 * stiffest) return s.x;  // the matrix is positive definite even with a smaller shift
         solver.setShift(1e-9 * stiffest);
         solver.factorize(l.k);
         if ((solver.vectorD().array() > 0).all()) return s.x;

@@ -17,10 +17,10 @@ constexpr double gravity = 9.81, hanging_span = 0.7 * strip_length;
 
 double cell_of(const StripNet& net) { return strip_length / net.cells; }
 
-/// Two rows of particles along a strip that begins at `from`, with springs that extend by a millionth of its length
-/// under the load (N/m). Bending rigidity and skip-one stiffness: 0 for none.
+/// Two rows of particles along a strip that begins at `from`. The springs extend by a millionth of its length under the
+/// load (N/m). Bending rigidity and skip-one stiffness are left out if they are 0.
 Scene two_rows(int cells, double from, double load, const std::array<int, 4>& pins, double rigidity, double skip_one) {
-  const double d = strip_length / cells, k = load * 1e6 / 2;  // two rows with stiffness k each on a width of d
+  const double d = strip_length / cells, k = load * 1e6 / 2;  // two rows, each with stiffness k, on a width of d
   return parse_scene(
       fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1\nstep = 1e-4\nwindow = 1\n"
                   "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [{}, 2]\norigin = [{}, 0, 0]\n"
@@ -87,7 +87,7 @@ Points along_elastica(const StripNet& net) {
   Points x = strip_scene(net).start.x;
   for (int row = 0; row < 2; ++row)
     for (int i = 2; i < n; ++i) {
-      // slope of the elastica halfway between the two particles
+      // slope of the elastica halfway between particles i - 1 and i
       const double angle = elastica.at((i - 1) * d).angle;
       x.col(row * n + i).head<2>() =
           x.col(row * n + i - 1).head<2>() + d * Vec3(std::cos(angle), -std::sin(angle), 0).head<2>();
@@ -98,8 +98,9 @@ Points along_elastica(const StripNet& net) {
 std::vector<double> frequencies_of(const StripNet& net) {
   const Scene scene = strip_scene(net);
   const Linearised l = linearised(scene.model, scene.start);
-  // both rows move alike: the sum of their unit offsets over sqrt(2) spans these motions
-  const int n = net.cells - 1;  // free particles in a row, all of the same mass
+  // both rows move alike: the sums of the unit offsets of two opposite particles, divided by sqrt(2), span these
+  // motions
+  const int n = net.cells - 1;  // number of free particles in a row, which have the same mass
   Eigen::MatrixXd pairs = Eigen::MatrixXd::Zero(l.size(), n);
   for (int i = 0; i < l.size(); ++i) {
     const int particle = l.free[static_cast<size_t>(i)] / 3, axis = l.free[static_cast<size_t>(i)] % 3;

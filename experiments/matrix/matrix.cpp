@@ -1,4 +1,4 @@
-// Experiment `matrix`: one answer of each engine to each question. Runs only if an external engine is among the
+// Experiment `matrix`: one answer from each engine to each question. Runs only if an external engine is among the
 // methods.
 
 #include <fmt/format.h>
@@ -37,14 +37,14 @@ struct UndampedMode {
   double omega, energy_at_rest, step;  // rad/s, J, s
 };
 
-/// The oscillator of experiment `energy`, with 72 steps per period.
+/// The oscillator of experiment `energy`, with a step of a 72nd of a period.
 UndampedMode mode_of_spring() {
   return {EngineQuestion::damping_of_spring, undamped_oscillator(), oscillator_omega, 0,
           2 * std::numbers::pi / oscillator_omega / 72};
 }
 
-/// The chain without drag, released in its slowest mode about its rest, with an amplitude of a thousandth of the
-/// scene's size, so that the motion is linear to a thousandth.
+/// The chain without drag, released in its slowest mode about its state of rest, with an amplitude of a thousandth of
+/// the scene's size, so that the motion is linear to within a thousandth.
 UndampedMode mode_of_chain() {
   Scene scene = load_scene("chain");
   std::erase_if(scene.model.terms, [](const Term& term) { return std::holds_alternative<Drag>(term); });
@@ -80,10 +80,10 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
         whole ? energy_of(mode.scene.model, {path.t[i], path.x[i], path.v[i]}).total() - mode.energy_at_rest : NAN));
   }
   const auto means_from = [&](int first) {
-    std::vector<std::pair<double, double>> means;  // time (s), ln(energy) over each period
+    std::vector<std::pair<double, double>> means;  // time (s), mean of ln(energy) over the period that begins then
     for (; first + samples <= static_cast<int>(logs.size()); first += samples) {
       const double mean = std::accumulate(&logs[first], &logs[first] + samples, 0.) / samples;
-      // rounding in single precision dominates below
+      // rounding in single precision dominates below this energy
       if (!std::isfinite(mean) || mean < logs[0] - std::log(1e4)) break;
       means.emplace_back(first / samples * period, mean);
     }
@@ -109,7 +109,7 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   return answer;
 }
 
-/// Damping of a spring that is a user-supplied force, for engines whose own springs follow another rule.
+/// Damping of a spring that acts through user-supplied forces, for engines whose own springs follow another rule.
 std::optional<Answer> damping_by_forces(const Method& method) {
   const std::optional<OutsideEngine> engine = kept_engine_of(method.name);
   if (!engine || engine->forces.empty() || method.name.find('+') != std::string::npos) return std::nullopt;
@@ -118,8 +118,8 @@ std::optional<Answer> damping_by_forces(const Method& method) {
   return answer;
 }
 
-/// "rk4", "symplectic-euler, implicit drag", "nearest: xpbd"; the value is the distance from that rule, in sizes of the
-/// net.
+/// The answer is "rk4", "symplectic-euler, implicit drag" or "nearest: xpbd"; its value is the distance from that rule
+/// in units of the net's size.
 Answer rule_answer(const Method& method) {
   Answer answer{.method = method.name, .question = EngineQuestion::rule, .unit = "1"};
   if (!method.identify) {
@@ -154,7 +154,7 @@ Answer build_answer(const Method& method) {
           .words = fmt::format("{}", fmt::join(parts, ", "))};
 }
 
-/// CPU time of a step with one falling particle: the overhead of the engine and its bridge.
+/// CPU time of a step with one falling particle, which is the overhead of the engine and its bridge.
 CostAnswer empty_step(const Method& method) {
   CostAnswer cell{.method = method.name, .question = EngineQuestion::empty_step, .unit = "s", .tier = "measured"};
   const Scene scene = parse_scene(

@@ -1,5 +1,5 @@
-// Experiment `order`: error over step, and its slope compared with the declared order. The distance of each run from
-// the method's own run at its smallest step reveals methods that converge to a different solution.
+// Experiment `order`: error versus time step, and its slope compared with the declared order. The distance of each run
+// from the method's own run at its smallest step reveals methods that converge to a different solution.
 
 #include <fmt/ranges.h>
 
@@ -27,7 +27,7 @@ struct Refinement {
 };
 
 struct Fit {
-  double order, from, to;  // slope, and the steps (s) between which it was fitted
+  double order, from, to;  // order: the slope; from, to: the steps (s) between which it was fitted
 };
 
 /// The slope of the finest three points if it is steady (two consecutive slopes differ by less than 0.3). Otherwise the
@@ -38,12 +38,12 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   const auto slope = [](const ErrorAtStep* a, const ErrorAtStep* b) {
     return std::log(a->error / b->error) / std::log(a->step / b->step);
   };
-  // an error that hardly falls comes from a different law and has no order
+  // an error that hardly decreases comes from a different law, and has no order
   if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3) || slope(p, r) < 0.5) return std::nullopt;
   return Fit{slope(p, r), p->step, r->step};
 }
 
-/// Why a scene is left out; empty if it is not.
+/// Reason for which a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene) {
   if (has_contact(scene.model)) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
@@ -53,7 +53,7 @@ std::string why_not(const Scene& scene) {
 void order_on(const Request& request, const Scene& scene, TableSet& tables) {
   Table points = table_of<OrderRow>();
   Table slopes = table_of<OrderSlopeRow>();
-  std::set<std::string> adaptive;  // left out, with one note
+  std::set<std::string> adaptive;  // adaptive methods, which are left out with one note for all
   const int halvings = request.full ? 9 : 7;
   if (const std::string why = why_not(scene); !why.empty()) {
     tables.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
@@ -73,7 +73,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       adaptive.insert(method.name);
       continue;
     }
-    // steps of other engines cost ten times as much
+    // at most five halvings for other engines, whose steps cost ten times as much
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {
@@ -102,7 +102,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       if (r.ok() && runs.back().ok() && !finest)
         row.distance_to_finest = largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window);
       add(points, row);
-      // below 30 error bars, or below round-off, the slope would be off by more than 0.05
+      // below 30 error bars, or below round-off, the error in the slope would exceed 0.05
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
     const auto fit = asymptotic_order(good);
