@@ -1,5 +1,5 @@
-// Syntax check by the compiler, for tests of code that must not compile. CMake defines CROSSCHECK_CXX and
-// CROSSCHECK_INCLUDES for the files that include this header.
+// Syntax check by the compiler, for tests of code that must not compile. For the files that include this header, CMake
+// defines CROSSCHECK_CXX and CROSSCHECK_INCLUDES.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 
 namespace crosscheck::testing_tools {
 
-/// `options` come before the include folders.
+/// Checks the syntax of a file. `options` come before the include folders.
 inline ProgramResult check_syntax(const std::filesystem::path& file, const std::vector<std::string>& options) {
   std::vector<std::string> command = {CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only"};
   command.insert(command.end(), options.begin(), options.end());
   std::istringstream folders(CROSSCHECK_INCLUDES);
-  // Skip the compiler's own folder, which is searched last by default. Naming it would move it forward, and cmath would
-  // no longer find its math.h.
+  // skips the compiler's own folder, which is searched last by default; naming it would move it forward, so that cmath
+  // would no longer find its math.h
   for (std::string folder; std::getline(folders, folder, '|');)
     if (folder != "/usr/include") command.insert(command.end(), {"-isystem", folder});
   command.insert(command.end(), {"-I", CROSSCHECK_SOURCE, file.string()});

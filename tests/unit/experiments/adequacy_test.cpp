@@ -1,4 +1,4 @@
-// Model ablations on small scenes, grids of another resolution, and the cheapest adequate model.
+// Ablations of models on small scenes, grids with another resolution, and the smallest adequate model.
 
 #include "experiments/adequacy/ablation.h"
 #include "experiments/adequacy/resolution.h"
@@ -40,7 +40,7 @@ TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     EXPECT_LE(y.floor, scene.tolerance / 5);
     const std::vector<AblatedModel> models = ablations_of(scene, y, scene.tolerance);
-    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // single removals only: each is too large
+    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // single removals only: all errors are too large
     for (const AblatedModel& r : models)
       if (!r.out.empty() && r.error) {
         EXPECT_GT(*r.error, scene.tolerance) << r.name;
@@ -60,11 +60,11 @@ TEST(Ablations, LeavesOutWhatDoesNotMatterAndOnlyThat) {
   const AblatedModel& least = least_model(models, 0.01);
   EXPECT_EQ(least.name, "without wind, drag");
   EXPECT_FALSE(least.single);
-  EXPECT_EQ(least.cost(), models.front().cost());  // one spring and the same number of evaluations
+  EXPECT_EQ(least.cost(), models.front().cost());  // both have one spring and the same number of evaluations
 }
 
 TEST(Ablations, SaysWhyItHasNoReference) {
-  // A double pendulum of soft springs for a minute has no reference solution.
+  // The double pendulum of soft springs has no reference solution over a minute.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n[[particle]]\n"
       "position = [1, 1, 0]\nmass = 1\n[[spring]]\nends = [0, 1]\nstiffness = 50\n[[spring]]\nends = [1, 2]\n"
@@ -158,7 +158,7 @@ TEST(Bending, SkipOneSpringsStiffenAsTheFourthPowerOfTheCells) {
   for (const BendSprings& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
   const auto law = power_law(points);
   ASSERT_TRUE(law);
-  // The first cell is clamped, so that only n - 2 cells bend. With so few cells this changes the exponent by some
+  // The first cell is clamped, so that only n - 2 cells bend. With so few cells, this changes the exponent by several
   // tenths.
   EXPECT_NEAR(law->exponent, 4, 0.7);
 }

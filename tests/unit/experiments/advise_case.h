@@ -1,4 +1,5 @@
-// One trial of `advise`: computes the advice, runs its file again, and compares with every candidate tried.
+// One trial of `advise`: computes the advice, repeats the run of its file, and compares it with all candidates that
+// `advise` tried.
 #pragma once
 
 #include "experiments/advise/advice.h"
@@ -12,12 +13,12 @@ namespace crosscheck::testing_tools {
 struct AdviseCase {
   bool promised = false, met = false;
   bool cheaper = false;  // a tried candidate met the tolerance at less than 0.8 of the advised cost
-  std::string why;       // why nothing was promised
+  std::string why;       // reason if nothing was promised
   std::string method;
   double tolerance = 0, error = 0;  // m
 };
 
-/// The tolerance is `part` of the scene's motion.
+/// Runs a trial whose tolerance is the fraction `part` of the scene's motion.
 inline AdviseCase advise_case(const Scene& scene, double part) {
   AdviseCase c;
   const auto truth = truth_of(scene, default_run(scene));
@@ -41,8 +42,8 @@ inline AdviseCase advise_case(const Scene& scene, double part) {
   return c;
 }
 
-/// Advice on a scene with contact for a tolerance of a fraction of its motion. Compares the advised file with the
-/// event-driven solution after every step.
+/// Result of a trial on a scene with contact, whose tolerance is a fraction of the motion. The advised file is compared
+/// with the event-driven solution after every step.
 struct ContactCase {
   bool promised = false, met = false;
   std::string why, method;
@@ -74,8 +75,8 @@ inline ContactCase contact_case(const Scene& scene, double part) {
     c.method = written.method;
     StepRecorder run;
     const Outcome out = run_method(method, written, default_run(written), {&run});
-    // Samples the event-driven solution at every step of the run until the promise ends; for adaptive methods, at the
-    // maximum step size.
+    // samples the event-driven solution at every step of the run until the promise ends, or for adaptive methods at the
+    // spacing of the maximum step
     Run dense = default_run(scene);
     const double h = method.adaptive ? written.step : out.step;
     dense.samples = scene.samples * std::max(1, static_cast<int>(std::lround(scene.duration / scene.samples / h)));

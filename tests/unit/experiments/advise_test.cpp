@@ -35,7 +35,7 @@ TEST(Measures, OfASpringHaveClosedForms) {
   for (const double about : {period, 3 * period, period / 10})
     EXPECT_NEAR(*period_of(free, about), period, 1e-4 * period);
   EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 1e-4 * 2 * m * 9.81 / k);
-  // The scene's own method: leapfrog's periods are shorter by (h omega)^2 / 24, here 6.7e-4.
+  // With the scene's own method, leapfrog, periods are shorter by (h omega)^2 / 24, here 6.7e-4.
   EXPECT_NEAR(*period_of(free, period, MeasuredBy::own_method), period * (1 - 16e-3 / 24), 1e-4 * period);
   // The energy decays as exp(-gamma t), with a ripple of gamma / omega.
   const double settle = std::log(1e3) / gamma, ripple = 1 / std::sqrt(k / m);
@@ -68,7 +68,7 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
     ASSERT_EQ(fitted.unknowns.size(), 1u);
     EXPECT_EQ(fitted.unknowns[0].name, row.unknown);
     EXPECT_NEAR(fitted.wishes[0].reached, fitted.wishes[0].wished, 0.02 * fitted.wishes[0].wished);
-    // Stiffness scales with the square of the period. The ripple of a settling time is gamma / omega, here 0.1.
+    // Stiffness scales with the square of the period. A settling time has a ripple of gamma / omega, here 0.1.
     EXPECT_NEAR(fitted.unknowns[0].value, row.expected, (row.unknown == "drag rate" ? 0.1 : 0.04) * row.expected);
     EXPECT_FALSE(has_unknowns(fitted.toml, "fitted"));
     EXPECT_EQ(parse_scene(fitted.toml, "wish.toml").hash, fitted.scene.hash);
@@ -100,7 +100,7 @@ TEST(Fit, WishesHoldInARunOfItsFile) {
                                 : *settle_time_of(s, w.wished, MeasuredBy::own_method);
     };
     EXPECT_EQ(at(fitted.scene), w.own);
-    // The value of the scene is the limit of its runs as the step tends to zero.
+    // The scene's value is the limit of its runs as the step tends to zero.
     Scene finer = fitted.scene;
     finer.step /= 16;
     EXPECT_NEAR(at(finer), w.reached, 3e-4 * w.reached);
@@ -120,7 +120,7 @@ TEST(Fit, FindsTwoAtOnce) {
 }
 
 TEST(Fit, RefusesWhatItCannotDo) {
-  // Files with "fit" are for `advise`, as the message says.
+  // The message says that files with "fit" are for `advise`.
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "\"fit\"")),
                        "spring[0].stiffness: expected a number above zero; \"fit\" is for `crosscheck advise`"));
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "80", "[wish]\n")), "expected at least one of sag, period"));
@@ -191,7 +191,8 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       const Trial& t = a.trials[a.chosen];
       EXPECT_LE(*t.error + a.error_bar, tolerance);
       EXPECT_NEAR(a.checked, *t.error, 1e-9 * tolerance + 1e-12);
-      // The order is at least 1, so that doubling the step about doubles the error. Steps divide the sampling interval.
+      // doubling the step at least about doubles the error, because the order is at least 1; steps divide the sampling
+      // interval
       const auto truth = truth_of(scene, default_run(scene));
       crosscheck::Run twice = default_run(scene);
       twice.step = 2 * t.step;
@@ -204,8 +205,8 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
   }
 }
 
-/// A mass of 0.5 kg, pulled down by 0.1 m, on a spring of 1 m and 300 N/m without gravity, for twelve periods. For
-/// `springs` > 1, a row of such springs.
+/// A mass of 0.5 kg, pulled down by 0.1 m, on a spring of 1 m and 300 N/m without gravity, for twelve periods. If
+/// `springs` > 1, a row of such springs and masses.
 Scene sampled_spring(double samples_in_a_period, int springs = 1) {
   const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
   std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
@@ -219,8 +220,8 @@ Scene sampled_spring(double samples_in_a_period, int springs = 1) {
 }
 
 TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
-  // One sample per period shows no motion, and one per half period only turning points. A bent row of two springs has
-  // no closed form.
+  // With one sample per period, the samples show no motion; with two, only the turning points. A bent row of two
+  // springs has no closed form.
   for (const auto& [scene, truth_is] : {std::pair{sampled_spring(1), Tier::exact},
                                         {sampled_spring(2), Tier::exact},
                                         {sampled_spring(3), Tier::exact},
@@ -230,7 +231,7 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
       const Advice a =
           advise(scene, tolerance, find_methods("leapfrog,symplectic-euler,rk4,dopri5,implicit-midpoint,suzuki4"));
       EXPECT_EQ(a.tier, truth_is);
-      // Compares with the truth after every step, or at 1000 times if the method is adaptive.
+      // compares with the truth after every step, or at 1000 times if the method is adaptive
       const Scene written = parse_scene(a.toml, "sampled");
       crosscheck::Run run = default_run(written);
       const Method method = find_method(written.method);
@@ -296,7 +297,7 @@ TEST(Advise, StepKeepsTheWishesOfAScene) {
 TEST(Advise, SeesTheFastestMotionOfAScene) {
   EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
   EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
-  // A pin may move faster than the particle on its spring.
+  // A moving pin may be faster than the particle on its spring.
   const Scene led = parse_scene(
       mass_on_spring("0.5", "80", "[pins.motion]\namplitude = [0, 0.01, 0]\nfrequency = 40\nramp = 0.1\n"), "led");
   EXPECT_NEAR(fastest_motion(led), 80 * std::numbers::pi, 1e-9);

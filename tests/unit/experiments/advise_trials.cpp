@@ -1,9 +1,10 @@
-// Trials of `crosscheck advise`, not part of the suite: five shipped scenes and thirty random ones with three
-// tolerances each, and parameters fitted to wishes. Prints every case. Exits 1 if a wish is not reached within 2 %,
-// fewer than 95 % of the promised cases meet their tolerance, or a tried candidate meets it at less than 0.8 of the
-// advised cost.
-// `advise_trials contact FIRST LAST [PART]` instead tries random scenes with contact with these seeds, for a tolerance
-// of PART (default 0.01) times their motion. Exits 1 if a promise is broken.
+// Trials of `crosscheck advise`, not part of the suite: five shipped scenes and thirty random scenes with three
+// tolerances each, and parameters fitted to wishes. Prints every case. Exits 1 if a wish is not reached within 2 %, if
+// fewer than 95 % of the promised cases meet their tolerance, or if a candidate that `advise` tried meets the tolerance
+// at less than 0.8 of the advised cost.
+//
+// `advise_trials contact FIRST LAST [PART]` instead tries random scenes with contact with the seeds FIRST to LAST, for
+// a tolerance of PART (default 0.01) times their motion. Exits 1 if a promise is broken.
 
 #include <cstdio>
 
@@ -15,7 +16,7 @@ using namespace crosscheck::testing_tools;
 
 namespace {
 
-/// A cloth, or a mass on a spring, with parameters to fit and wishes.
+/// A cloth, or a mass on a spring, with wishes and parameters to fit.
 struct WishCase {
   std::string name, text;
 };

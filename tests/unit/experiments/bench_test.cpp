@@ -1,4 +1,4 @@
-// The bench: scenes, rows, and ratios next to times. Tests never check speeds.
+// The bench: scenes, rows, and ratios in addition to times. Tests never check speeds.
 
 #include <cstdlib>
 #include <set>
@@ -38,8 +38,8 @@ class Measured {
   const std::vector<std::string>& notes() const { return record_.notes; }
 
  private:
-  /// With three rounds, low and high are the minimum and maximum, and the ratio of a round lies between their
-  /// quotients.
+  /// Checks the intervals. With three rounds, `low` and `high` are the minimum and maximum, and the ratio of a round
+  /// lies between the quotients of these.
   static void expect_ratio_of_times(const BenchRow& row) {
     SCOPED_TRACE(row.work + ", " + row.scene + ", " + row.peer + ", " + row.mysim);
     if (!row.ratio) return;
@@ -100,8 +100,9 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
 }
 
 TEST(BenchKernels, EachOneForEachInstructionSet) {
-  const Measured kernels(measure_kernels, 40);  // includes the tolerance of single precision
-  // the naive and the plain loop; for each instruction set the general kernel and three fused steps
+  const Measured kernels(measure_kernels, 40);  // runs all kernels; includes single precision and its tolerance
+  // two rows for the naive and the plain loop; for each instruction set, one for the general kernel and three for fused
+  // steps
   EXPECT_EQ(kernels.rows().size(), 2 + 4 * simd::supported_instruction_sets().size());
   std::set<std::string> names;
   for (const BenchRow& row : kernels.rows()) {
@@ -172,7 +173,7 @@ TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
   EXPECT_FALSE(measured.rows()[0].ratio);
 }
 
-/// Errors of one peer, from its first setting to its last.
+/// The errors of one peer, from its first setting to its last one.
 std::vector<double> errors_of(const Measured& measured, const std::string& peer) {
   std::vector<double> errors;
   for (const BenchRow& row : measured.rows())
@@ -181,7 +182,7 @@ std::vector<double> errors_of(const Measured& measured, const std::string& peer)
   return errors;
 }
 
-/// The errors of an adaptive peer at two tolerances.
+/// Expects the errors of an adaptive peer to follow its two tolerances.
 void expect_tolerance_followed(const std::vector<double>& errors) {
   ASSERT_GE(errors.size(), 2u);
   EXPECT_LT(errors[0], 1e-4);
@@ -189,7 +190,7 @@ void expect_tolerance_followed(const std::vector<double>& errors) {
 }
 
 TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
-  // Each peer uses independently written equations or Bullet, so that truth and peers share no code.
+  // The peers use Bullet or independently written equations, so that truth and peers share no code.
   const Measured measured = rows_of(
       {{"odeint/rk4", {0.5, 0.25}}, {"odeint/dopri5", {1e-6, 1e-8}}, {"bullet/deformable-explicit", {0.2, 0.1}}});
   const auto rk4 = errors_of(measured, "odeint/rk4"), euler = errors_of(measured, "bullet/deformable-explicit");
@@ -214,7 +215,7 @@ TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
     EXPECT_TRUE(row.ratio);
   }
   const auto errors = errors_of(measured, "bullet/pbd");
-  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // first order, as backward Euler
+  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // first order, like backward Euler
 }
 
 TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmall) {
@@ -249,8 +250,8 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
 TEST(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
   const Measured measured(measure_implicit_steps, ImplicitStepOptions{{24}, {60, 240}, hasty});
   ASSERT_EQ(measured.rows().size(), 2 * compared_instruction_sets().size());
-  // One solves to 1e-12 of the forces, the other to round-off. The softest mode has only inertia as its stiffness and
-  // falls by more than 1 mm in a step.
+  // One solver stops at 1e-12 of the forces, the other at round-off. The stiffness of the softest mode is only its
+  // inertia; in a step this mode falls by more than 1 mm.
   for (const BenchRow& row : measured.rows()) EXPECT_LE(*row.apart, 1e-13);
 }
 
@@ -261,7 +262,7 @@ TEST(FactorisedStep, RefusesDragThatIsNoRate) {
 }
 
 TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
-  // random initial state, and springs that form no cloth grid
+  // the scene has a random initial state, and springs that form no cloth grid
   Scene scene = hanging_cloth(9);
   Random random(3);
   scene.model.find<Springs>()->list.resize(150);

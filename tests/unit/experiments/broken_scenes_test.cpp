@@ -1,5 +1,6 @@
-// Common mistakes in scene files. A user who sees only the file and the message must be able to fix the mistake in one
-// edit, so that each message names the line to change, the key, the value found and the value expected.
+// Common mistakes in scene files. A user who sees only the file and the message must be able to correct the mistake
+// with a single edit. Therefore, each message names the line to change, the key, the value found and the value
+// expected.
 
 #include <fstream>
 
@@ -12,7 +13,7 @@ namespace {
 
 using namespace testing_tools;
 
-// a valid scene; the expectations below refer to its line numbers
+// a valid scene; the test cases below refer to its line numbers
 constexpr std::string_view net = R"(# A net that hangs, with a weight.
 question = "How far does a net hang?"
 parameters = "Picked by hand."
@@ -68,7 +69,7 @@ friction = 0.4
 struct Breakage {
   const char* name;
   std::string_view good, broken;    // text in the valid file, and its replacement in the broken one
-  int line;                         // line in the message; 0: the file as a whole
+  int line;                         // line in the message; 0: the message is about the whole file
   std::vector<const char*> expect;  // substrings of the message
 };
 
@@ -281,7 +282,7 @@ TEST(BrokenScenes, EachMessageNamesTheLineAndTheMend) {
     EXPECT_TRUE(begins(message, b.line > 0 ? fmt::format("{}:{}: ", file, b.line) : file + ": "));
     for (const char* part : b.expect) EXPECT_TRUE(contains(message, part));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    if (std::getenv("CROSSCHECK_SHOW_MESSAGES"))  // for a reader who has not seen the table
+    if (std::getenv("CROSSCHECK_SHOW_MESSAGES"))  // prints the messages for readers who have not seen the table
       fmt::print("{}\n", message.substr(file.size() - 8));
   }
 }

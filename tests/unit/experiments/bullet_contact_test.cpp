@@ -9,8 +9,8 @@
 
 namespace crosscheck {
 
-// Bullet's contacts: Coulomb friction in the deformable world, friction creep in the position-based one, carried
-// cloths, several spheres.
+// Bullet's contacts: Coulomb friction in the deformable world, creep in the position-based world, a cloth that a ball
+// carries along, and several spheres.
 
 namespace {
 
@@ -38,7 +38,7 @@ TEST(BulletFriction, OfTheDeformableWorldIsCoulombs) {
         const Scene scene = on_slope(mu);
         const double coulomb = g * (std::sin(slope_angle) - mu * std::cos(slope_angle)) * scene.duration;
         const double found = speed_at_the_end(method, scene, h);
-        // Three digits: on a ball of 1000 m the slope steepens by 5e-4 over 0.5 m, which adds 3e-4.
+        // Agrees to three digits: on a ball of 1000 m the slope steepens by 5e-4 over 0.5 m, which adds 3e-4.
         EXPECT_NEAR(found / coulomb, 1, 1e-3) << fmt::format("{} mu {} h {}", method, mu, h);
       }
 }
@@ -52,9 +52,9 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
       const Trajectory path = run_and_record(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
       return (path.x.back() - path.x.front()).norm();
     };
-    EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet leaves a part of the weight uncompensated, and the particle settles
+    EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet does not compensate the whole weight, so that the particle settles
     EXPECT_LT(way(2 * limit), 1e-5);
-    // 5 % below the limit it accelerates by 5 % of g sin(30) for 0.5 s.
+    // 5 % below the limit, the particle accelerates by 5 % of g sin(30) for 0.5 s.
     EXPECT_NEAR(way(0.95 * limit), 0.05 * g * 0.5 * 0.125, 0.02 * 0.05 * g * 0.5 * 0.125);
   }
 }
@@ -64,25 +64,26 @@ TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
     for (const double h : {5e-4, 1e-3, 5e-3}) {
       const Trajectory path = run_and_record("bullet/pbd", on_slope(f), {h, 0.5, 50}).trajectory;
       const double creep = g * std::sin(slope_angle) * h * (1 - f) / f;
-      // Sometimes a node is out of contact for one step and faster for a few; the median ignores this.
+      // Occasionally, a node loses contact for one step and is faster for a few steps; the median ignores this.
       std::vector<double> speeds;
       for (int i = 25; i <= 50; ++i) speeds.push_back(path.v[i].col(0).norm());
       std::nth_element(speeds.begin(), speeds.begin() + 13, speeds.end());
       const double found = speeds[13];
       EXPECT_NEAR(found / creep, 1, 1e-3) << fmt::format("f {} h {}", f, h);
     }
-  // Sufficient friction holds the particle, although Bullet reports a speed, which the divergence monitor accepts.
+  // Sufficient friction holds the particle. Bullet nevertheless reports a speed, which the divergence monitor accepts.
   Recorder recorder;
   find_method("bullet/pbd").engine(on_slope(0.7), {1e-3, 0.5, 50}, recorder);
   EXPECT_LT((recorder.trajectory.x.back() - recorder.trajectory.x.front()).norm(), 1e-5);
 }
 
 TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
-  // Bullet pushes the particle, whose energy was zero, out of the contact at 3e-4 m/s: a correction, not a blow-up.
+  // Bullet pushes the particle, whose energy was zero, out of the contact at 3e-4 m/s. This is a correction, not a
+  // blow-up.
   EXPECT_GE(speed_at_the_end("bullet/pbd", on_slope(0.7), 1e-3), 0);
-  // Conversely, a blow-up needs more than ten times the energy of a fall by 1/256 of the ball (1 km here).
+  // Conversely, a blow-up is detected only above ten times the energy of a fall by 1/256 of the ball (of 1 km here).
   const Scene scene = on_slope(0.7);
-  for (const double speed : {0.1, 50.0}) {  // m/s: 5 mJ and 1.25 kJ, compared with 10 times 38 J
+  for (const double speed : {0.1, 50.0}) {  // m/s: energies of 5 mJ and 1.25 kJ, compared with 10 times 38 J
     DivergenceMonitor monitor(scene.model);
     State s = scene.start;
     Verdict verdict = monitor.observe(s, true);
@@ -111,8 +112,8 @@ TEST(BulletMovingSphere, CarriesTheClothAlong) {
       closest = std::min(closest, *clearance(scene, a.trajectory.t[i], a.trajectory.x[i]));
     const double along = centre_of_mass(scene, a.trajectory.x.back()).x() - centre_of_mass(scene, scene.start.x).x();
     fmt::print("{}: clearance {:.2g} m, carried {:.3f} of {:.3f} m\n", method, closest, along, moved);
-    // Bullet resolves contact against the ball's position at the start of the step: |u| h = 0.6 m/s x 1 ms, and a hop
-    // of (v h)^2 / 2R, about 1e-6 m.
+    // Bullet resolves contacts with the ball's position at the start of the step. This causes errors of |u| h = 0.6 m/s
+    // x 1 ms, and a hop of (v h)^2 / 2R, about 1e-6 m.
     EXPECT_GE(closest, -1e-3);
     EXPECT_NEAR(along, moved, 0.1 * moved);  // the cloth sags and slips a little
   }
@@ -153,8 +154,8 @@ TEST(BulletSpheres, TwoHoldAChainBetweenThem) {
     }
     EXPECT_GT(touched[0], 10);
     EXPECT_GT(touched[1], 10);
-    EXPECT_GE(closest, -2e-3);  // penetration on impact at 1.5 m/s: less than 1.5 m/s x 1 ms
-    // The engines follow different impact rules. Position-based friction holds particles that slide here.
+    EXPECT_GE(closest, -2e-3);  // penetration at an impact speed of 1.5 m/s: less than 1.5 m/s x 1 ms
+    // The engines follow different impact rules, and position-based friction holds particles that should slide here.
     EXPECT_LE(sup_rms(ours, a.trajectory, method == explicit_world ? 0.6 : 0.25), 0.01);
   }
 }
@@ -178,7 +179,7 @@ TEST(BulletSpheres, WhatABodyOfBulletCannotHaveIsRefused) {
 
 }  // namespace
 
-// Bullet's traps, each reproduced and avoided, and runs in which nothing moves.
+// Bullet's pitfalls, each of which is reproduced and avoided, and runs in which nothing moves.
 
 namespace {
 
@@ -207,24 +208,24 @@ TEST(BulletTraps, ShippedImplicitForceBlowsUpWhereSpringsArePushed) {
   const Scene scene = trap("indefinite-hessian");
   const MethodRun shipped = play("bullet/deformable-implicit+shipped", scene),
                   clamped = play("bullet/deformable-implicit", scene);
-  // Bullet clamps speeds, so that a blow-up shows in lengths before it shows in the energy.
+  // Bullet clamps speeds, so that lengths show a blow-up before the energy does.
   EXPECT_TRUE(shipped.outcome.verdict == Verdict::energy || shipped.outcome.verdict == Verdict::stretch)
       << shipped.outcome.reason;
   EXPECT_EQ(clamped.outcome.verdict, Verdict::ok);
-  // under tension only, both forces are the same
+  // if springs are under tension only, both forces are equal
   Scene pulled = load_scene("spring");
   pulled.start.x(1, 1) = -1.15;
   EXPECT_LE(sup_distance(play("bullet/deformable-implicit+shipped", pulled).trajectory,
                          play("bullet/deformable-implicit", pulled).trajectory),
-            1e-7);  // both solve to eight digits
+            1e-7);  // both solvers stop at eight digits
 }
 
 TEST(BulletTraps, SpeedLimitActsOnlyWithTheDefaultMargin) {
   const Scene scene = trap("speed-clamp");
   const MethodRun open = play("bullet/deformable-explicit+default-margin", scene),
                   closed = play("bullet/deformable-explicit", scene), ours = play("symplectic-euler", scene);
-  // The box of a lone particle is a cube of twice the margin. The limit is its diagonal per step, here less than 80
-  // m/s.
+  // The box of a lone particle is a cube whose side is twice the margin. The limit is the diagonal of the cube per
+  // step, here less than 80 m/s.
   const double limit = 2 * 0.25 * std::sqrt(3) / scene.step;
   for (size_t i = 1; i < open.trajectory.v.size(); ++i)
     EXPECT_LE(open.trajectory.v[i].col(0).norm(), limit * (1 + 1e-12));
@@ -242,7 +243,7 @@ TEST(BulletTraps, OwnWindDoesNotBeginOnAClothAtRest) {
   double fastest = 0;
   for (int i = 0; i < own.frames() && own.t[i] <= 0.3; ++i) fastest = std::max(fastest, largest_column(own.v[i]));
   EXPECT_LT(fastest, 1e-6);
-  // The wind's initial acceleration is 13.5 m/s^2, and half of that once the cloth moves at 0.9 m/s in a wind of 3 m/s.
+  // The wind of 3 m/s causes an initial acceleration of 13.5 m/s^2, and half of that once the cloth moves at 0.9 m/s.
   EXPECT_GT(largest_column(added.v[added.frames() / 4]), 1);
 }
 
@@ -250,7 +251,7 @@ TEST(BulletTraps, RestLengthsAreOverwrittenUnlessTheFlagIsCleared) {
   const Scene scene = trap("rest-lengths");
   for (const std::string world : {"bullet/deformable-explicit", "bullet/pbd"}) {
     const Outcome open = play(world + "+default-rest", scene).outcome, closed = play(world, scene).outcome;
-    EXPECT_NEAR(open.readback->links[0].rest, 0.9, 1e-12) << world;  // measured from the initial state
+    EXPECT_NEAR(open.readback->links[0].rest, 0.9, 1e-12) << world;  // Bullet measures it in the initial state
     EXPECT_EQ(closed.readback->links[0].rest, 1.0) << world;
     EXPECT_TRUE(certify(world, scene, open).mismatch());
     EXPECT_FALSE(certify(world, scene, closed).mismatch());
@@ -266,7 +267,7 @@ TEST(BulletTraps, DistanceFieldIsWrongByTheSquareOfItsVoxel) {
   };
   const double coarse = gap("bullet/pbd+default-voxel"), fine = gap("bullet/pbd");
   fmt::print("distance field: {:.3g} m with 0.25 m, {:.3g} m with 0.02 m\n", coarse, fine);
-  // Trilinear interpolation of the distance has an error of a^2 / 8R along one axis, and twice that across a cell.
+  // Trilinear interpolation of the distance has an error of a^2 / 8R along one axis, and of twice that across a cell.
   EXPECT_LE(coarse, 0.25 * 0.25 / (4 * radius));
   EXPECT_LE(fine, 0.02 * 0.02 / (4 * radius));
   EXPECT_GT(coarse, 1e-3);
@@ -274,12 +275,13 @@ TEST(BulletTraps, DistanceFieldIsWrongByTheSquareOfItsVoxel) {
 }
 
 TEST(BulletTraps, SlowBodiesStayAwake) {
-  // 1e-3 m at 10 rad/s is at most 0.01 m/s. Bullet deactivates bodies that are slower than 0.04 m/s for 2 s.
+  // The speed is at most 0.01 m/s, for an amplitude of 1e-3 m and 10 rad/s. Bullet deactivates bodies that are slower
+  // than 0.04 m/s for 2 s.
   Scene scene = load_scene("spring");
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Gravity>(t); });
   scene.start.x(1, 1) = -1 - 1e-3;
   for (const auto& [method, kept] : {std::pair{"bullet/deformable-explicit", 1.},
-                                     // backward Euler damps by exp(-omega^2 h t / 2)
+                                     // backward Euler damps the amplitude by exp(-omega^2 h t / 2)
                                      {"bullet/deformable-implicit", std::exp(-0.05 * 4.5)},
                                      {"bullet/pbd", std::exp(-0.05 * 4.5)}}) {
     const MethodRun a = play(method, scene);
@@ -292,7 +294,7 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
       }
     EXPECT_NEAR((high - low) / 2, 1e-3 * kept, 3e-5) << method;
   }
-  // with sleeping enabled it stops after two seconds, wherever it is
+  // with sleeping enabled the body stops after two seconds, wherever it is
   const MethodRun asleep = play("bullet/deformable-explicit+default-sleep", scene);
   EXPECT_TRUE(asleep.outcome.readback->may_sleep.value());
   for (int i = 1; i < asleep.trajectory.frames(); ++i)
@@ -308,7 +310,7 @@ TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
   EXPECT_EQ(monitor.observe(state, true), Verdict::ok);
   state.t = 0.01;
   EXPECT_EQ(monitor.observe(state, true), Verdict::frozen);
-  // the smallest change of position or velocity counts as motion
+  // even the smallest change of position or velocity counts as motion
   for (const bool speed : {false, true}) {
     DivergenceMonitor other(scene.model);
     other.observe(scene.start, true);
@@ -319,7 +321,7 @@ TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
 }
 
 TEST(Frozen, IsNotWhatAPlaneHoldsAtTheOrigin) {
-  // In 10 ms the particle would fall by 0.49 mm. A millionth of that counts as rounding.
+  // In 10 ms the particle would fall by 0.49 mm; a gap of a millionth of that counts as rounding.
   for (const double gap : {0., 4e-10, 6e-10}) {
     const Scene scene = small_scene(
         fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n[plane]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n{}",

@@ -1,5 +1,5 @@
-// Bullet's position-based world: the stiffness of its links, the law to which its networks converge, drag and added
-// forces.
+// Bullet's position-based world: the stiffness of its links, the force law to which its networks converge, drag, and
+// additional forces.
 
 #include <numbers>
 
@@ -31,8 +31,8 @@ TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
         fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
     count += share == 0.1 || share == 0.5;
     EXPECT_LT(std::abs(deviation), 2e-3);  // required bound
-    // The last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST). It removes half of that strain more than Hooke's
-    // law would.
+    // The last Gauss-Seidel pass starts at the strain 1e-4 / (1 - kLST), and removes half of that strain more than
+    // Hooke's law would.
     EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
   }
   EXPECT_EQ(count, 18);  // 2 shares, 3 steps, 3 iterations
@@ -47,7 +47,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
       if (number(table, row, "iterations") != n) continue;
       const double K = number(table, row, "k h^2/mu"), deviation = number(table, row, "deviation");
       if (before != 0) {
-        EXPECT_LT(deviation, 0.5 * before) << K;  // falls with every halving of the step
+        EXPECT_LT(deviation, 0.5 * before) << K;  // decreases with every halving of the step
       }
       last_slope = before / deviation, before = deviation;
       if (K > largest) largest = K, at_largest = deviation;
@@ -55,8 +55,8 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     }
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
-    EXPECT_GT(at_smallest, 1e-4);     // and is above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, which falls 4-fold per halved step
+    EXPECT_GT(at_smallest, 1e-4);     // but above round-off
+    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, a quarter at half the step
   }
 }
 
@@ -73,7 +73,7 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
     SCOPED_TRACE(net);
     const double game = 1. / 60;
     for (const std::string method : {"bullet/pbd", "mysim/xpbd"}) {
-      // With one pass it is softer than requested, and softer than with half the step.
+      // With one pass, the net is softer than requested, and softer than with half the step.
       const double long_step = at(net, method, game, 1).by_sag.value(),
                    half = at(net, method, game / 2, 1).by_sag.value();
       EXPECT_LT(long_step, 0.8);
@@ -81,7 +81,8 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
       EXPECT_LT(half, 1);
       EXPECT_NEAR(at(net, method, 1. / 480, 1).by_sag.value(), 1, 0.03);
     }
-    // Sixteen sub-steps equal a sixteenth of the step: k h^2 / mu falls by a factor of 256, and so does the deficit.
+    // Sixteen sub-steps are equivalent to a sixteenth of the step: k h^2 / mu falls by a factor of 256, and so does the
+    // lack of stiffness.
     const double one = 1 - at(net, "mysim/xpbd", game, 1).by_sag.value(),
                  sixteen = 1 - at(net, "mysim/xpbd", game, 16).by_sag.value();
     EXPECT_LT(sixteen, one / 50);
@@ -91,11 +92,12 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
     // relaxation that computes it (1e-5).
     EXPECT_NEAR(at(net, "bullet/deformable-implicit", game, 1).by_sag.value(), 1, 2e-5);
   }
-  // The chain has closed forms for both: sag m g / k n (n + 1) / 2, and frequency 2 sqrt(k/m) sin(pi / (4 n + 2)).
+  // Closed forms exist for the sag of the chain, m g / k n (n + 1) / 2, and its frequency, 2 sqrt(k/m) sin(pi / (4 n +
+  // 2)).
   const EffectiveStiffnessRow chain = at("chain of 8", "mysim/xpbd", 1. / 60, 1);
   EXPECT_NEAR(chain.expected_sag, 0.05 * 0.05 / 200 * 36, 1e-5 * chain.expected_sag);
   const double omega = 2 * std::sqrt(200 / 0.05) * std::sin(std::numbers::pi / 34);
-  // higher modes of the fall shift its turning points
+  // the turning points are shifted by higher modes of the fall
   EXPECT_NEAR(chain.expected_period, 2 * std::numbers::pi / omega, 2e-3 * chain.expected_period);
 }
 
@@ -127,7 +129,8 @@ TEST(BulletPbdNetwork, ConvergesToTheLinkLawAndNotToHookes) {
   }
   fmt::print("soft cloth: {:.3g} to {:.3g} m from the link law, {:.3g} to {:.3g} m from Hooke's\n", from_link.front(),
              from_link.back(), from_hooke.front(), from_hooke.back());
-  // First order: half the step, half the error. At the largest step, the square of k h^2/mu = 0.02 contributes.
+  // First order: half the step gives half the error. At the largest step, the square of k h^2/mu = 0.02 contributes,
+  // too.
   for (size_t i = 1; i < from_link.size(); ++i) EXPECT_NEAR(slope(from_link[i - 1], from_link[i]), 1, 0.1);
   EXPECT_LE(from_link.back(), from_link.front() / 4);  // required bound
   EXPECT_GT(from_hooke.back(), from_hooke.front() / 2);
@@ -142,8 +145,8 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
           "[[particle]]\nposition = [0, 0, 0]\nmass = 0.3\nvelocity = [1, -2, 0.5]\n[drag]\ngamma = {}\n", gamma));
       const int steps = 60;
       const Trajectory path = run_and_record("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
-      // Velocities are differences of positions divided by h, so that each step rounds them by an ulp of the path
-      // length over h.
+      // Velocities are differences of positions divided by h. Each step therefore rounds them by an ulp of the path
+      // length, divided by h.
       const double rounding = steps * eps * path.x.back().norm() / h;
       for (int i = 0; i <= steps; ++i)
         EXPECT_LE((path.v[i] - std::exp(-gamma * i * h) * scene.start.v).norm(), rounding) << i;
@@ -151,7 +154,7 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
 }
 
 TEST(BulletPbdDashpot, ConvergesToTheDampedOscillatorAtFirstOrder) {
-  // strains of 1e-4, where the link law agrees with Hooke's law to 5e-5
+  // strains are 1e-4, for which the link law agrees with Hooke's law to 5e-5
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1.0001, 0]\nmass = 1\n[[spring]]\n"
       "ends = [0, 1]\nstiffness = 100\nrest = 1\ndashpot = 3\n[pins]\nparticles = [0]\n");
@@ -175,7 +178,8 @@ TEST(BulletPbdForces, AddedToNodesConvergeToTheScenesSolution) {
     for (const double h : {1e-3, 5e-4, 2.5e-4})
       error.push_back(sup_rms(with_law(scene, SpringLaw::bullet_link, "bullet/pbd", h), truth));
     fmt::print("{}: {:.3g}, {:.3g}, {:.3g} m\n", what, error[0], error[1], error[2]);
-    // First order. The bound is two-sided because an error that is independent of the step would stop the convergence.
+    // First order. The bound is two-sided, because an error that does not depend on the step would stop the
+    // convergence.
     EXPECT_NEAR(slope(error[1], error[2]), 1, 0.15) << what;
     EXPECT_LT(error[2], 2e-3) << what;
   }

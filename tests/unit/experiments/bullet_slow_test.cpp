@@ -1,4 +1,5 @@
-// Bullet compared with mysim on the shipped scenes in both precisions, within the measured growth of a perturbation.
+// Bullet compared with mysim on the shipped scenes, in both precisions. Differences are bounded by the measured growth
+// of a perturbation.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -16,7 +17,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// At the scene's own step; expects the run to finish.
+/// Runs the scene at its own step; expects the run to finish.
 MethodRun play(const std::string& method, const Scene& scene) {
   MethodRun a = run_and_record(method, scene, default_run(scene));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << method << ": " << a.outcome.reason;
@@ -32,7 +33,7 @@ void expect_identity(const std::string& name, const std::string& carried_by) {
   const double apart = sup_distance(ours.trajectory, theirs.trajectory, scene.window);
   const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, scene.window);
   fmt::print("{}: {:.3g} m apart, growth {:.3g}\n", name, apart, growth);
-  EXPECT_LE(apart, 1e-12);  // required bound: round-off of the summation order (1e-15 m) times growth
+  EXPECT_LE(apart, 1e-12);  // required bound: round-off due to the summation order (1e-15 m), times growth
   EXPECT_LT(growth, 1e3);
 }
 
@@ -58,13 +59,14 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
     int stable = 0;
     bool own = false;
     for (const Stepper& s : steppers()) {
-      // Implicit steps cost many evaluations, so that they run only on scenes that use them.
+      // Implicit steps take many evaluations, so they are run only on scenes that use them.
       if (s.evaluations == 0 && s.name != scene.method) continue;
       if (omega > 0 && s.limit(omega, uniform_drag_rate(scene.model).value_or(0)) < scene.step) continue;
       if (s.adaptive) continue;  // its steps change with the perturbation, so that growth shows only the tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
-      // Runs the scene's own method to the end, to find where its window ends, and the others over the declared window.
+      // Runs the scene's own method to the end, to find where its window ends, and the other methods over the declared
+      // window.
       const bool to_the_end = s.name == scene.method;
       Recorder r;
       crosscheck::Run run = default_run(scene);
@@ -83,13 +85,13 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
         EXPECT_GT(growing.window(), scene.window - 1.001 * scene.duration / scene.samples);
       }
       EXPECT_GT(growth, 0);
-      // The windows were chosen by this bound. Dissipative first-order rules effectively simulate a cloth of another
-      // stiffness (xpbd, with one sweep per step: 6e3 measured on cloth-hang).
+      // The windows were chosen so that this bound holds. Dissipative first-order rules effectively simulate a cloth
+      // with another stiffness (xpbd, with one sweep per step: growth 6e3, measured on cloth-hang).
       EXPECT_LT(growth, s.order == 1 && !s.symplectic ? 1e4 : 1e3);
     }
     EXPECT_TRUE(own) << name;
-    // The two symplectic rules and rk4, or the three rules that support first-order scenes. On special scenes only few
-    // rules are stable.
+    // Expects the two symplectic rules and rk4, or the three rules that support first-order scenes. Only few rules are
+    // stable on special scenes.
     const bool special = scene.model.find<Constraints>() || scene.method == "implicit-euler";
     EXPECT_GE(stable, special ? 1 : 3) << name;
   }
@@ -115,7 +117,7 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   const MethodRun ours = play("symplectic-euler", scene), theirs = play("bullet/deformable-explicit", scene);
   FirstTouch touch;
   run_method(find_method("symplectic-euler"), scene, default_run(scene), {&touch});
-  EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the scene file gives two digits
+  EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the scene file gives two decimals
   const auto sampled = first_contact(scene, ours.trajectory);
   ASSERT_TRUE(sampled);
   EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // the next sample is at most 0.02 s later
@@ -130,25 +132,26 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   }
   fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
              rms, mean_apart, closest);
-  // required bounds: Bullet uses normals of the old position, so that nodes hop by (v h)^2 / 2R in each step
+  // required bounds: Bullet uses the normals of old positions, so that nodes hop by (v h)^2 / 2R in each step
   EXPECT_LE(rms, 2e-3);
   EXPECT_LE(mean_apart, 5e-3);
-  EXPECT_GE(closest, -1e-3);  // voxels of 0.005 m: 6e-6 m, and one hop
+  EXPECT_GE(closest, -1e-3);  // voxels of 0.005 m cause 6e-6 m, and one hop is added
 }
 
 }  // namespace
 
-// Bullet's explicit world is mysim's symplectic Euler: on every contact-free shipped scene at three steps and in three
-// sizes, on 200 random networks, and bit for bit if the sums are taken in Bullet's order.
+// Bullet's explicit world is mysim's symplectic Euler. Compared on every contact-free shipped scene at three steps and
+// in three sizes, and on 200 random networks; bit for bit if sums are taken in Bullet's order.
 
 namespace {
 
 using namespace testing_tools;
 
-/// Both sum the same forces in a different order, which differs by about 1e-15 m (an ulp of some metres) in each step.
-/// Over thousands of steps this accumulates like a random walk, to 100 times that, and grows like any perturbation. The
-/// bound is at least 1e-12 m because rounding of velocities adds a drift of sqrt(N) T h eps k L / m in N steps.
-/// (Springs of 200 000 N/m in a cloth coarser than those tried here reach 4e-12 m that way.)
+/// Allowed difference, m. Both engines sum the same forces in different orders. In each step, the results differ by
+/// about 1e-15 m (an ulp of some metres). Over thousands of steps these differences accumulate like a random walk, to
+/// 100 times that, and grow like any perturbation. The bound is at least 1e-12 m because the rounding of velocities
+/// adds a drift of sqrt(N) T h eps k L / m in N steps. (Springs of 200 000 N/m in a cloth coarser than those tested
+/// here reach 4e-12 m in that way.)
 double allowed(double growth) { return 1e-13 * std::max(10.0, growth); }
 
 struct Comparison {
@@ -190,7 +193,7 @@ TEST(BulletIdentity, OnEveryContactFreeShippedSceneAtThreeStepsInThreeSizes) {
                                  scene.size(), step));
         const auto [apart, growth] = compare(scene, {step, std::min(scene.window, 1500 * step), 20});
         EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
-        EXPECT_LT(growth, 1e3);  // otherwise the bound would test little
+        EXPECT_LT(growth, 1e3);  // if it grew more, the bound would test little
         worst = std::max(worst, apart / allowed(growth)), most = std::max(most, growth);
       }
     }
@@ -205,7 +208,7 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene = random_contact_free_scene(seed);
-    if (seed % 2 == 1)  // two stiffnesses, softer than before, so that Bullet's own force supports them
+    if (seed % 2 == 1)  // two stiffnesses, lower than before, because Bullet's own force supports at most two
       for (Spring& s : scene.model.find<Springs>()->list) s.k = s.k < 100 ? 10 : 100;
     const auto [apart, growth] = compare(scene, default_run(scene));
     EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
@@ -219,8 +222,9 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
              by_bullet);
 }
 
-/// Symplectic Euler in Bullet's order: impulses h f are summed link by link, then those of gravity; v += w (1/m); v
-/// loses the fraction h gamma; x += h v. The force of a link is k (d - n r) with n = d (1 / |d|).
+/// Symplectic Euler in Bullet's order of operations: impulses h f are summed into w link by link, then those of
+/// gravity; v += w (1/m); v loses the fraction h gamma; x += h v. The force of a link is k (d - n r) with n = d (1 /
+/// |d|).
 std::vector<Points> in_bullets_order(const Scene& scene, const crosscheck::Run& run) {
   const Model& model = scene.model;
   const int n = model.particles.size();
@@ -274,7 +278,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     const Scene scene = load_scene(std::string(name));
     if (has_contact(scene.model)) continue;
     SCOPED_TRACE(name);
-    // one second of the cloths: 2000 steps are long enough for the random walk
+    // one second of the cloths: 2000 steps are enough for the random walk
     const double until = scene.start.x.cols() > 50 ? std::min(1.0, scene.window) : scene.window;
     const int samples = std::max(2, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
     const crosscheck::Run run{scene.step, until, samples};
@@ -300,7 +304,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     ASSERT_TRUE(bound);
     const double apart = sup_distance(ours.trajectory, theirs.trajectory);
     EXPECT_LE(apart, *bound);
-    // Single precision loses at least half an ulp of the motion once; double precision would not.
+    // Single precision loses at least half an ulp of the motion at least once; double precision does not.
     EXPECT_GT(apart, 3e-8 * motion);
     EXPECT_GT(apart,
               1e6 * sup_distance(ours.trajectory, run_and_record("bullet/deformable-explicit", scene, run).trajectory));

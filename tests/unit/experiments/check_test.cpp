@@ -1,4 +1,4 @@
-// Relations: each detects the engine that violates it, and a correct engine violates none.
+// Relations: each relation detects an engine that violates it, and a correct engine violates none.
 
 #include "experiments/check/check.h"
 #include "experiments/check/transformations.h"
@@ -110,7 +110,7 @@ TEST(Relations, CannotBeAskedOfAMethodThatEndsNoRun) {
   for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_applicable) << a.relation->name;
   EXPECT_TRUE(contains(answers.front().sentence(), "it did not start"));
   EXPECT_EQ(status_of(answers), 1);
-  // An engine that completes some scenes violates the relations of the scenes on which it fails.
+  // An engine that completes some scenes violates the relations on the scenes where it fails.
   weak.engine = [&dead, alive = weak.engine](const Scene& scene, const crosscheck::Run& run, Observer& observer) {
     return (scene.model.find<Springs>() ? dead.engine : alive)(scene, run, observer);
   };
@@ -163,7 +163,7 @@ TEST(Relations, PassWhereNothingButKnownBreaksWasFound) {
 class KnownBreaks : public InFolder {};
 
 TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
-  // Gauss-Seidel: the order of springs moves the net by about 1e6 tolerances.
+  // In the Gauss-Seidel iteration, the order of springs moves the net by about 1e6 tolerances.
   for (const char* whose : {"method = \"mysim/xp*\"", "rule = \"xpbd\""}) {
     SCOPED_TRACE(whose);
     const auto known = read_known_breaks(
@@ -178,7 +178,7 @@ TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
     };
     EXPECT_EQ(mark(find_method("xpbd"), 1e9), RelationMark::known);
     EXPECT_EQ(mark(find_method("xpbd"), 2), RelationMark::broken);
-    // an engine of that name with another rule is not excused by the rule
+    // a table about the rule does not excuse an engine of that name which follows another rule
     Method other = with_defect("leapfrog", [](Scene& s, const crosscheck::Run&) { springs_in(s)[0].k *= 1.01; });
     other.name = "mysim/xpbd";
     EXPECT_EQ(mark(other, 1e15), known[0].rule.empty() ? RelationMark::known : RelationMark::broken);

@@ -28,7 +28,7 @@ TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
     for (const char* rule : fused_rules) {
       const Trajectory plain = path_of(std::string(rule) + "+plain", scene);
       const double motion = motion_of(plain);
-      // Measured growth of a perturbation over 200 steps; a different summation order is such a perturbation.
+      // A different summation order is equivalent to a perturbation, whose growth is measured over 200 steps.
       const double growth = perturbation_growth(find_method(std::string(rule) + "+plain"), scene, scene.step, 0.2);
       for (const InstructionSet isa : simd::supported_instruction_sets()) {
         const ScopedInstructionSet only(isa);
@@ -65,9 +65,9 @@ TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
     }
 }
 
-/// Contacts are resolved in SIMD lanes without a ledger, and by the rule of terms/surface.h with one. Both agree bit
-/// for bit on one ball, on two, and on a ball and a plane that touch the same particles, which slide, stick, hit at
-/// speed, or bounce.
+/// Contacts are resolved in SIMD lanes if there is no ledger, and otherwise by the rule of terms/surface.h. The results
+/// agree bit for bit for one ball, for two balls, and for a ball and a plane that touch the same particles. The
+/// particles slide, stick, hit at speed, or bounce.
 TEST(ClothGrid, ContactsInLanesHaveTheBitsOfTheRule) {
   std::string cloth = load_scene("cloth-sphere").source;
   cloth.erase(cloth.find("[sphere]"));
@@ -118,7 +118,7 @@ TEST(ClothGrid, RecognisesRegularCloths) {
   EXPECT_EQ(topology->families[0]->k, 40);
   EXPECT_EQ(topology->families[3]->k, 25);
   EXPECT_EQ(topology->families[5]->k, 10);
-  // spring families may be missing
+  // any family of springs may be missing
   EXPECT_TRUE(grid_topology_in(scene_of(cloth, "structural = 40")));
   const struct {
     const char* what;
@@ -220,7 +220,7 @@ TEST(ClothGrid, InstructionsThatAreNotThereAreNamed) {
   }
 }
 
-/// Large enough for the requested threads. The other terms reach into the rows next to every border.
+/// Cloths large enough for the requested threads. The other terms affect the rows next to every border between threads.
 std::vector<Cloth> large_cloths() {
   return {
       {"hangs and is carried", 131, 101,
@@ -239,7 +239,7 @@ TEST(ClothGrid, ThreadsChangeNoBit) {
     Scene scene = scene_of(cloth);
     scene.duration = 0.02, scene.samples = 2, scene.step = 2e-4;
     for (const std::string rule : {"leapfrog", "leapfrog+single", "suzuki4"}) {
-      if (cloth.rows == 128 && rule == "suzuki4") continue;  // the general engine handles spheres there
+      if (cloth.rows == 128 && rule == "suzuki4") continue;  // the general engine handles spheres in suzuki4
       const Trajectory one = path_of(rule, scene);
       EXPECT_GT(motion_of(one), 1e-4) << cloth.name;
       for (const char* threads : {"+threads=2", "+threads=3"}) {
@@ -268,7 +268,7 @@ TEST(ThreadPool, CountsWhatTheOthersWork) {
       }
       own[which] += s;
     });
-  // The pool also counts clock reads. The first thread has twenty times as much work.
+  // The pool also counts the time of clock reads. The first thread has twenty times as much work as each of the others.
   EXPECT_GE(pool.seconds(), own[1] + own[2]);
   EXPECT_LT(pool.seconds(), own[0]);
 }

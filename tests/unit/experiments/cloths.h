@@ -1,4 +1,4 @@
-// Cloths that the fused step accepts, with the other terms of a scene that it must handle.
+// Cloths that the fused step accepts, combined with the other terms of a scene that it must handle.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,8 +20,8 @@ inline std::optional<simd::GridTopology> grid_topology_in(const Scene& scene) {
 struct Cloth {
   const char* name;
   int rows, columns;
-  std::string more;             // lines of the scene file
-  void (*change)(Scene&) = {};  // change that a scene file cannot express
+  std::string more;             // additional lines of the scene file
+  void (*change)(Scene&) = {};  // modification that a scene file cannot express
 };
 
 inline Springs& springs_of(Scene& scene) {
@@ -30,7 +30,7 @@ inline Springs& springs_of(Scene& scene) {
   throw std::logic_error("no springs");
 }
 
-/// A single row, written spring by spring because a grid has at least two rows.
+/// A cloth with a single row. It is written spring by spring, because a grid has at least two rows.
 inline std::string one_row(int columns) {
   std::string text;
   for (int i = 0; i < columns; ++i) text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 0.01\n", 0.1 * i);
@@ -49,7 +49,7 @@ inline std::string text_of(const Cloth& cloth, const std::string& stiffness) {
       cloth.columns, cloth.rows, (cloth.rows - 1) / (cloth.columns - 1.), stiffness, cloth.more);
 }
 
-/// With an initial wave, so that springs are under tension from the first step on.
+/// The scene of a cloth with an initial wave, so that springs are under tension from the first step on.
 inline Scene scene_of(const Cloth& cloth, const std::string& stiffness = "structural = 40\nshear = 25\nbend = 10") {
   Scene scene = small_scene(text_of(cloth, stiffness), 0.2, 1e-3, 4);
   scene.window = 0.2;
@@ -65,7 +65,7 @@ inline Scene scene_of(const Cloth& cloth, const std::string& stiffness = "struct
 
 inline const std::string hang = "[pins]\nparticles = [0, 1]\n" + std::string(gravity_text);
 
-/// Sizes around the lane widths (tiles of 8 or 16), one-row grids, and other terms.
+/// Cloths with sizes around the lane widths (tiles of 8 or 16), with a single row, and with other terms.
 inline std::vector<Cloth> cloths() {
   return {
       {"17 columns: the fewest", 5, 17, hang},

@@ -33,7 +33,7 @@ TEST(TriangleDepth, NoPointOfTheTriangleIsNearer) {
     for (int i = 0; i <= 60; ++i)
       for (int j = 0; i + j <= 60; ++j) best = std::min(best, (a + i / 60. * (b - a) + j / 60. * (c - a) - p).norm());
     EXPECT_LE(found, best + 8 * eps) << seed;
-    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // mesh width for sides up to 2 sqrt(3)
+    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // the mesh for sides of up to 2 sqrt(3) has this width
   }
 }
 
@@ -69,14 +69,14 @@ TEST(SphereCone, EnginesStickAndSlideOnBothSidesOfTheLine) {
       EXPECT_EQ(below->state, ContactState::slides);
       EXPECT_GT(below->distance, 0.01);
     }
-    // two failures: the position-based world creeps, the sticky sphere holds everything
+    // detects two failures: the position-based world creeps, and the sticky sphere holds everything
     EXPECT_EQ(cone(find_method("bullet/pbd"), degrees, 0.5 * limit, Ground::ball, 1e-3, out)->state,
               ContactState::neither);
     EXPECT_EQ(cone(find_method(sticky), degrees, 0, Ground::ball, 1e-3, out)->state, ContactState::sticks);
   }
 }
 
-/// All methods of mysim that follow Coulomb's law, including those that locate events.
+/// All methods of mysim that follow Coulomb's law, and those that also locate events.
 std::vector<Method> coulomb_methods() {
   std::vector<Method> methods;
   for (const Method& m : builtin_methods()) {
@@ -101,8 +101,9 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       ASSERT_TRUE(held) << out.reason;
       EXPECT_EQ(held->state, ContactState::sticks);
       EXPECT_EQ(held->coulomb, 0);
-      // Rounding of h v in 500 steps, and the residual of implicit rules: 1e-10 of the weight in each step. A node of
-      // Bullet's implicit world that leaves the face falls freely for a step or two (experiments/check/known.toml).
+      // The bounds cover the rounding of h v in 500 steps, and the residual of implicit rules, which is 1e-10 of the
+      // weight in each step. In Bullet's implicit world, a node that leaves the face falls freely for a step or two
+      // (experiments/check/known.toml).
       const double free_step = 9.81 * 1e-3 * 1e-3;
       EXPECT_LT(held->distance, 1e-13 + (!method.implicit  ? 0
                                          : !method.stepper ? 2 * free_step
@@ -114,7 +115,7 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       ASSERT_TRUE(exact);
       EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // a millimetre of 1 m, cancelled
     }
-  // two failures: the position-based world creeps, the sticky rule holds everything
+  // detects two failures: the position-based world creeps, and the sticky rule holds everything
   EXPECT_EQ(cone(find_method("bullet/pbd"), 35, 0.35, Ground::plane, 1e-3, out)->state, ContactState::neither);
   EXPECT_EQ(cone(find_method(sticky), 35, 0, Ground::plane, 1e-3, out)->state, ContactState::sticks);
 }
@@ -130,14 +131,14 @@ TEST(PlaneProbes, ClosedFormsHoldWithinTheOrderOfEachMethod) {
         EXPECT_TRUE(value) << out.reason;
         return std::abs(value.value_or(NAN) - by_theory(probe));
       };
-      // An impact changes the speed by up to (1 + e) g h too much. Three impacts change the height after them, at 1.24
-      // m/s, by v / g times as much, plus one step at that speed. With events, only sampling matters: the highest
-      // sample is up to g h^2 / 8 below the apex. All relative to 0.3 m.
+      // An impact may add an excess of up to (1 + e) g h to the speed. At the later speed v = 1.24 m/s, the excess of
+      // three impacts changes the height by up to v / g times this value, plus the distance of one step. With events,
+      // only sampling matters: the highest sample is up to g h^2 / 8 below the apex. Heights are relative to 0.3 m.
       EXPECT_LT(off(PlaneProbe::apex), events ? 9.81 * h * h / 8 / 0.3 + 1e-9 : (3 * 1.8 + 1) * 1.24 * h / 0.3);
-      // each of two impacts in 0.467 s lasts until the end of its step
+      // each of the two impacts in 0.467 s lasts until the end of its step
       EXPECT_LT(off(PlaneProbe::period), events ? 1e-9 : 2 * h / (1.4 / 3) * (1 + 1e-9));
       EXPECT_LT(off(PlaneProbe::loss), 1e-12);  // rounding
-      // Explicit Euler moves with the velocity before the fall, so that it touches one step later.
+      // Explicit Euler moves particles with the velocity before the fall, so that they touch one step later.
       EXPECT_EQ(off(PlaneProbe::held), method.name == "mysim/explicit-euler" ? 0.5 : 0);
     }
   }
@@ -181,7 +182,7 @@ TEST(SphereRebound, ComesToTheSquareOfRestitution) {
       for (const double h : {1e-3, 1e-4}) {
         const auto height = rebound(find_method(name), scene, h, out);
         ASSERT_TRUE(height);
-        // The impact occurs anywhere within a step at 2.4 m/s, and Euler lags by as much again.
+        // The impact at 2.4 m/s may occur anywhere within a step, and Euler lags by as much again.
         EXPECT_NEAR(*height, 0.3 * e * e, 2 * 2.43 * h) << h;
       }
     }
@@ -205,7 +206,7 @@ TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
       return largest_rms_distance(run_and_record(method, scene, run).trajectory, truth->trajectory);
     };
     if (scene.name == "bounces") {
-      EXPECT_LT(error("leapfrog+events", 10), 1e-12);  // parabolas are exact: rounding of a hundred steps
+      EXPECT_LT(error("leapfrog+events", 10), 1e-12);  // parabolas are exact up to the rounding of a hundred steps
     } else {
       EXPECT_NEAR(slope(error("leapfrog+events", 10), error("leapfrog+events", 40)) / 2, 2, 0.1);
       EXPECT_GT(error("leapfrog", 40), 10 * error("leapfrog+events", 40));
@@ -214,7 +215,7 @@ TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
 }
 
 TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
-  // On the ball v^2 = 2 g R (1 - cos). The particle leaves at cos = 2/3, then falls freely until the gap is a
+  // On the ball, v^2 = 2 g R (1 - cos). The particle leaves at cos = 2/3, and then falls freely until the gap is a
   // millimetre.
   const double r = 1.02, g = 9.81, c = 2. / 3, s = std::sqrt(1 - c * c), v = std::sqrt(g * r * c);
   double t = 0, x = 0, y = 0;
@@ -230,8 +231,8 @@ TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
   for (const auto name : {"leapfrog", "rk4", "bullet/deformable-explicit"}) {
     const auto found = leaving(find_method(name), 1e-3, out);
     ASSERT_TRUE(found) << name;
-    // A step is 0.15 degrees there. After contact ends, the gap grows as the cube of the time, so that one step more or
-    // less of contact changes the angle by at most a degree.
+    // There, a step covers 0.15 degrees. After contact ends, the gap grows as the cube of the time. One step more or
+    // less of contact therefore changes the angle by at most a degree.
     EXPECT_NEAR(found->angle, exact.angle, 1) << name;
     EXPECT_NEAR(found->speed, exact.speed, 0.02 * exact.speed) << name;
   }
@@ -263,7 +264,7 @@ TEST(SphereDrape, ASymmetricClothStaysSymmetricUnlessLinksAreSwept) {
     EXPECT_LT(*clearance(scene, t.t.back(), t.x.back()), 1e-3);
     return mirror->asymmetry(t.x.back());
   };
-  // rounding, amplified at most ten-thousandfold
+  // bounds on the rounding error, which is amplified at most ten-thousandfold
   EXPECT_LT(skew("leapfrog"), 1e-11);
   EXPECT_LT(skew("symplectic-euler"), 1e-11);
   EXPECT_GT(skew("xpbd"), 1e-5);

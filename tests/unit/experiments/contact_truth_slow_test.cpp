@@ -1,4 +1,5 @@
-// Contact: the limit of the in-house rule while an order is observed, and statistics beyond that.
+// Reference solutions with contact: the limit of mysim's own contact rule as long as the runs show an order of
+// convergence, and statistics after that time.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -21,7 +22,7 @@ TEST(ContactTruth, FollowsADrapeFor300MillisecondsAndAFinerRunLiesWithinTheBar) 
   ASSERT_TRUE(truth);
   EXPECT_TRUE(truth->under_contact_rule);
   EXPECT_EQ(truth->tier, Tier::converged);
-  EXPECT_NEAR(truth->until, scene.window, 1e-9);  // 0.3 s after the first touch
+  EXPECT_NEAR(truth->until, scene.window, 1e-9);  // the window ends 0.3 s after the first touch
   EXPECT_EQ(truth->trajectory.t.back(), truth->until);
   EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
   EXPECT_TRUE(contains(truth->how, "under the in-house contact rule; other rules differ"));
@@ -42,13 +43,13 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
   ASSERT_TRUE(truth);
   EXPECT_FALSE(truth->under_contact_rule);
   EXPECT_EQ(truth->tier, Tier::converged);
-  // A perturbation has grown a thousandfold at 0.56 s. From there on the two rules differ.
+  // At 0.56 s, a perturbation has grown a thousandfold, and the two rules begin to differ.
   EXPECT_GT(truth->until, 0.47);
   EXPECT_LT(truth->until, 0.57);
   EXPECT_EQ(truth->trajectory.t.back(), truth->until);
   EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
   EXPECT_LE(truth->error_bar, scene.tolerance / 3);
-  // a third rule of mysim, used by neither route
+  // a third rule of mysim, which neither solution uses
   Recorder recorder;
   Ledger ledger(scene.model, ContactLoss::reported);
   run_method(find_method("rk4"), scene, {scene.step / 16, truth->until, truth->trajectory.frames() - 1},
@@ -92,18 +93,18 @@ TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
   for (const auto& truth : {contact_truth(scene, default_run(scene)), time_stepping_truth(scene, default_run(scene))}) {
     ASSERT_TRUE(truth && exact);
     EXPECT_EQ(std::min(truth->until, scene.duration), scene.window)
-        << truth->how;  // one particle is followed to the end
+        << truth->how;  // a single particle is followed to the end
     double error = 0;
     for (int i = 0; i < truth->trajectory.frames(); ++i)
       error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
     fmt::print("slide: bar {:.2g} m, error {:.2g} m, {}\n", truth->error_bar, error, truth->how);
     EXPECT_LT(error, truth->error_bar) << truth->how;
-    // friction is the only dissipation there
+    // friction is the only dissipation in this scene
     const auto energy = [&](int i) { return energy_of(scene.model, exact->at(truth->trajectory.t[i])).total(); };
     for (size_t i = 0; i < truth->contact.size(); ++i)
       EXPECT_NEAR(truth->contact[i], energy(0) - energy(static_cast<int>(i)), truth->contact_bars[i] + 1e-12) << i;
     EXPECT_EQ(truth->contact.empty(), truth->under_contact_rule);
-    // The error bar of a first-order route says little about a second-order route.
+    // A first-order solution has an error bar that says little about a second-order solution.
     if (truth->under_contact_rule) {
       EXPECT_GT(error, truth->error_bar / 40);
     }
@@ -130,7 +131,7 @@ TEST(ContactTruth, BarsCoverThirtyRandomScenesOnPlanes) {
     const double off = sup_rms(path, finer.trajectory);
     EXPECT_LE(off, bar);
     closest = std::min(closest, bar / off);
-    // a third rule, whose last refinement is its uncertainty
+    // a third rule, whose uncertainty is the change by its last refinement
     Recorder coarse, fine;
     for (const auto& [recorder, part] : {std::pair{&coarse, 64}, {&fine, 128}})
       run_method(method, scene, {scene.step / part, run.duration, run.samples}, {recorder});
@@ -146,7 +147,7 @@ TEST(ContactTruth, IsNoneWhereNothingTouchesOrNoOrderIsSeen) {
   const Scene drape = load_scene("cloth-sphere");
   EXPECT_FALSE(contact_truth(drape, {1e-3, 0.1, 10}));  // still falling
   const Scene jelly = load_scene("jelly");
-  EXPECT_FALSE(contact_truth(jelly, default_run(jelly)));  // its corners hit the ball one after the other
+  EXPECT_FALSE(contact_truth(jelly, default_run(jelly)));  // no order: its corners hit the ball one after the other
 }
 
 TEST(ContactTruth, IsCalledADifferenceInTheTables) {
@@ -156,7 +157,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   request.scenes[0].samples = 20;
   request.scenes[0].window = 0.4;
   request.methods = find_methods("leapfrog,symplectic-euler");
-  // The second route does not support two spheres at once, so only the contact rule's own limit remains.
+  // The second solution does not support two spheres at once, so only the limit of the contact rule remains.
   auto& spheres = std::get<Spheres>(*std::ranges::find_if(
       request.scenes[0].model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); }));
   spheres.list.push_back(spheres.list.front());
@@ -179,7 +180,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
 }
 
 TEST(ContactTruth, AdvicePromisesOnRandomScenesAndKeepsItAfterEveryStep) {
-  // particles, a chain and a net; the first twenty seeds are those of `advise_trials contact 1 20`
+  // scenes of particles, a chain and a net; their seeds are among the twenty of `advise_trials contact 1 20`
   for (const unsigned seed : {6u, 7u, 20u}) {
     const ContactCase c = contact_case(random_contact_scene(seed), 0.01);
     EXPECT_TRUE(c.promised) << seed << ": " << c.why;
@@ -208,7 +209,7 @@ TEST(FloorDrop, KeepsAPerturbationSmallToTheEndOfItsWindowAndEndsInOneState) {
       if (path.t[i] <= scene.window * (1 + 1e-9))
         growth = std::max(growth, largest_column(path.x[i] - plain.x[i]) / size);
     }
-    // height, clearance, energies and outline at the end differ by about the size of the perturbation
+    // the final height, clearance, energies and outline differ by about the size of the perturbation
     const auto end = contact_quantities(start, path);
     for (size_t q = 0; q < end.size(); ++q) EXPECT_NEAR(end[q].mean, expected[q].mean, 10 * size) << end[q].quantity;
   }
@@ -225,7 +226,7 @@ TEST(FloorDrop, TruthCoversAnotherRuleToTheEnd) {
   EXPECT_FALSE(truth->under_contact_rule);
   EXPECT_GE(std::min(truth->until, scene.duration), scene.window);
   EXPECT_LE(truth->error_bar, scene.tolerance / 3);
-  // rk4 is not one of the two routes
+  // rk4 is neither of the two methods behind the truth
   const Trajectory other = run_and_record("rk4", scene, {scene.step / 16, scene.duration, scene.samples}).trajectory;
   const double off = sup_rms(truth->trajectory, other);
   fmt::print("floor-drop: bar {:.2g} m, {:.2g} m from another rule\n", truth->error_bar, off);
@@ -248,12 +249,12 @@ TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {
     EXPECT_EQ(first[i].deviation, again[i].deviation);
   }
   EXPECT_EQ(first[0].quantity, "height of the centre of mass at the end");
-  // The motion is hardly sensitive: the mean agrees with the unperturbed run up to the effect of moving 216 particles
-  // by 1e-6 m, as modified by contact.
+  // The motion is not sensitive: the mean agrees with the unperturbed run, up to the effect (modified by contact) of
+  // moving 216 particles by 1e-6 m.
   EXPECT_NEAR(first[0].mean, plain_values[0], 1e-5);
   EXPECT_GT(first[0].deviation, 1e-10);
   EXPECT_LT(first[0].deviation, 1e-5);
-  EXPECT_GT(first[3].mean, 0.05);  // J: springs are compressed by some millimetres under a weight of 49 N
+  EXPECT_GT(first[3].mean, 0.05);  // J: a weight of 49 N compresses the springs by some millimetres
   EXPECT_TRUE(contact_statistics(find_method("odeint/rk4"), scene, run).empty());
 }
 

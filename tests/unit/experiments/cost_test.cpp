@@ -1,5 +1,5 @@
-// Experiment `cost`: the cloth at other sizes, phases from given times, kernels of known work. No test compares times.
-// times.
+// Experiment `cost`: the cloth at other sizes, phases from given times, and kernels with a known amount of work. No
+// test compares measured times.
 
 #include <set>
 
@@ -28,7 +28,7 @@ TEST(Cost, TheSizedClothIsTheShippedRecipe) {
       EXPECT_EQ(a[i].k, b[i].k);
       EXPECT_EQ(a[i].rest, b[i].rest);
     }
-    // pins start at their fixed positions; other particles up to 5 cm off the plane
+    // pins start at their fixed positions, other particles up to 5 cm from the plane
     for (const int pin : sized.model.particles.pins) EXPECT_NEAR(sized.start.x(1, pin), 0, 1e-15);
     EXPECT_NEAR(sized.start.x.row(1).cwiseAbs().maxCoeff(), 0.05, 0.01);
   }
@@ -37,13 +37,14 @@ TEST(Cost, TheSizedClothIsTheShippedRecipe) {
 TEST(Cost, TheStepKeepsItsDistanceFromTheLimitAtEverySize) {
   for (const int n : {8, 20, 40}) {
     const Scene cloth = sized_cloth(n);
-    // The limit of symplectic Euler is near 2 / omega. Edges matter more if there are few particles.
+    // The limit of symplectic Euler is near 2 / omega. Edges matter more if the cloth has few particles.
     EXPECT_NEAR(cloth.step * highest_frequency(cloth.model, cloth.start) / 2, 0.45, 0.03) << n;
   }
 }
 
 TEST(Cost, PhasesAreTheDifferencesOfTimings) {
-  // springs, forces, step without and with the sphere, fused step, another engine; each +-0.1, +-0.2 or +-1
+  // times of springs, forces, a step without and with the sphere, the fused step, and another engine; their intervals
+  // are +-0.1, +-0.2 or +-1
   const std::vector<Timing> times = {{1, 0.9, 1.1, 5}, {3, 2.8, 3.2, 5}, {4, 3.9, 4.1, 7},
                                      {6, 5.8, 6.2, 5}, {2, 1.9, 2.1, 5}, {8, 7, 9, 5}};
   const Table t = phases_table(8, {"general", "fused", "other"}, times);
@@ -82,7 +83,8 @@ TEST(Cost, PhasesAreThoseOfTheMethodsThatAreAskedFor) {
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(std::get<std::string>(t.at(i, "method")), "mysim/leapfrog+plain");
   EXPECT_EQ(std::get<std::string>(t.at(5, "method")), "mysim/leapfrog");
   EXPECT_EQ(std::get<std::string>(t.at(6, "method")), "bullet/deformable-explicit");
-  // Phases are timed separately and subtracted, which is correct only if a step evaluates the forces once.
+  // Times of phases are differences between separate measurements. They are correct only if a step evaluates the forces
+  // exactly once.
   const Scene scene = sized_cloth(8);
   const Outcome out = run_and_record("mysim/leapfrog+plain", scene, {scene.step, 10 * scene.step, 1}).outcome;
   EXPECT_EQ(out.evaluations, out.steps);
@@ -98,7 +100,7 @@ TEST(Cost, EveryMethodIsARowAndAdaptiveOnesAreNone) {
   EXPECT_EQ(std::get<double>(t.at(0, "evaluations per step")), 1);
   EXPECT_EQ(std::get<double>(t.at(1, "evaluations per step")), 4);
   EXPECT_EQ(std::get<long>(t.at(0, "particles")), 64);
-  // per row and column 7 structural and 6 bend springs, and two diagonals in each of 7 x 7 cells
+  // each row and each column has 7 structural and 6 bend springs, and each of the 7 x 7 cells has two diagonals
   EXPECT_EQ(std::get<long>(t.at(0, "springs")), 2 * 8 * 7 + 2 * 8 * 6 + 2 * 7 * 7);
 }
 
@@ -121,7 +123,7 @@ TEST(Cost, PointsAreDistinctAndTheQuickOnesAreAmongAll) {
   ASSERT_EQ(points.size(), others.size());
   for (size_t i = 0; i < points.size(); ++i) {
     EXPECT_TRUE(quick.insert(points[i].name).second && all.contains(points[i].name)) << points[i].name;
-    // the content depends on the methods and on --full only
+    // the content depends only on the methods and on --full
     EXPECT_NE(points[i].content, others[i].content);
     EXPECT_NE(points[i].content, cost_points(full)[i].content);
   }

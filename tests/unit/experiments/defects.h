@@ -1,5 +1,5 @@
-// Engines with a single defect each, made from a correct one: the relation that must detect it, and others that it may
-// violate.
+// Engines with a single defect, made from a correct engine; the relation that must detect each defect, and other
+// relations that it may violate.
 #pragma once
 
 #include <functional>
@@ -50,9 +50,9 @@ inline Method with_defect(const std::string& base, ChangeScene scene_change, Cha
 struct Defect {
   std::string relation, what;
   std::function<Method(const std::string& base)> make;
-  std::set<std::string> also = {};  // other relations that it must or may violate
+  std::set<std::string> also = {};  // other relations that the engine must or may violate
   std::string because = {};
-  int least_order = 1;  // minimum order of the rules in which this counts as a defect
+  int least_order = 1;  // lowest order of rules for which this counts as a defect
   std::set<std::string> also_in_bullet = {};
 };
 
@@ -65,7 +65,7 @@ inline void multiply_stiffness(Scene& s, double by) {
 inline void multiply_gravity(Scene& s, double by) {
   if (auto* g = s.model.find<Gravity>()) g->acceleration *= by;
 }
-/// Steps between two samples, which scaling the scene does not change.
+/// Number of steps between two samples, which does not change if the scene is scaled.
 inline double steps_between(const crosscheck::Run& run) { return run.duration / run.samples / run.step; }
 
 inline const std::vector<Defect>& defects() {

@@ -1,4 +1,5 @@
-// Every known disagreement is reproduced by its own criterion, with a sentence of numbers, and by no healthy method.
+// Every known disagreement is reproduced according to its own criterion, and described in a sentence with numbers. No
+// healthy method reproduces it.
 
 #include <map>
 #include <numbers>
@@ -64,7 +65,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
       // a hanging run has only its initial state
       EXPECT_GE(s.points.size(), s.outcome.verdict == Verdict::timeout ? 1u : 2u) << s.variant.method;
     }
-    EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // the scene's own definition
+    EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // the first variant is the scene itself
     EXPECT_EQ(why_not_asked(all[d], series), "");
     for (const auto* conditions : {&all[d].symptom, &all[d].cause_removed})
       for (const Condition& c : *conditions)
@@ -81,7 +82,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
 TEST(Disagreements, AHealthyMethodHasNone) {
   for (Disagreement d : disagreements()) {
     SCOPED_TRACE(d.name);
-    // Replaces each Bullet world by the reference method, at its own step.
+    // Replaces each Bullet world by the reference method with the scene's own step.
     for (Variant& v : d.variants)
       if (find_method(v.method).family().role == Role::peer) v.method = d.variants[0].method, v.step = 0;
     EXPECT_EQ(name_of(state_of(d, run_variants(d, scene_of(d)))), "not reproduced");
@@ -159,7 +160,7 @@ TEST(Disagreements, AProgramTakesThePlaceOfBulletsWorlds) {
   EXPECT_EQ(with_worlds_of(row("one-stiffness"), "exec:./other").world, "exec:./other+world=deformable-explicit");
 }
 
-/// Rows about an external program: the single-precision adapter, or an engine without Bullet's disagreements.
+/// Tests rows about an external program: the single-precision adapter, or an engine without Bullet's disagreements.
 TEST(Disagreements, AreAskedOfAProgram) {
   const std::string adapter = "exec:" CROSSCHECK_BULLET32_PROGRAM, healthy = "exec:" CROSSCHECK_EXAMPLE;
   for (const auto name : {"one-stiffness", "gravity-factor"}) {
@@ -193,7 +194,8 @@ TEST(Disagreements, LinkLawInMysimIsThePositionBasedWorlds) {
   EXPECT_LT(apart(all[1], all[2]), 0.1 * apart(all[0], all[1]));
 }
 
-/// Contact direction of a ball's distance field on a grid: the gradient of the trilinear interpolation in a voxel.
+/// Direction of contact for a ball whose distance field is given on a grid: the gradient of the trilinear interpolation
+/// in a voxel.
 Vec3 gradient_of_the_grid(const Vec3& x, double radius, double voxel) {
   const Eigen::Array3d at = (x / voxel).array(), low = at.floor(), part = at - low;
   Vec3 gradient = Vec3::Zero();
@@ -216,8 +218,8 @@ TEST(Disagreements, DirectionOfContactIsTheGradientOfTheGridInAVoxel) {
     double largest = 0;
     for (const DirectionError& e : errors) {
       SCOPED_TRACE(fmt::format("{:.3g} degrees, voxel {:g} m", e.angle * 180 / std::numbers::pi, voxel));
-      // No angle is within 0.3 mm of a face between voxels. The particle starts on the surface and stays within a tenth
-      // of a millimetre of it.
+      // No angle is within 0.3 mm of a face between voxels. The particle starts on the surface and stays within 0.1 mm
+      // of it.
       const Vec3 n = gradient_of_the_grid(1.02 * Vec3(std::sin(e.angle), std::cos(e.angle), 0), 1, voxel);
       const double in_plane = std::atan2(n.x(), n.y()) - e.angle, sideways = std::asin(n.z());
       fmt::print("{:.4f} rad, voxel {:g} m: in plane {:+.2e}, by the grid {:+.2e}; sideways {:+.2e}, {:+.2e}\n",

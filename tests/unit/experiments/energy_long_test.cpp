@@ -24,7 +24,7 @@ TEST(ThinnedLedger, SeesEveryStepAndKeepsFewRows) {
   const crosscheck::Run run{1e-3, 1, 10};
   run_method(find_method("leapfrog"), scene, run, {&all, &few});
   EXPECT_LT(few.rows().size(), 80u);
-  EXPECT_EQ(few.rows()[1].t, 1e-3);  // the first states are kept
+  EXPECT_EQ(few.rows()[1].t, 1e-3);  // rows of the first states are kept
   size_t met = 0;
   for (const LedgerRow& row : all.rows())
     for (const LedgerRow& other : few.rows())
@@ -48,8 +48,8 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
     swinging.push_back({t, {kinetic, 0.5 * std::sin(2 * t), 0}, 0, 0, 0, 0, 0});
   }
   const ResidualStatistics a = residual_statistics(drifting), b = residual_statistics(swinging);
-  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // a straight line, up to the rounding of energies of 2 J
-  EXPECT_LT(a.oscillation, 1e-6);      // square root of the rounding of r^2
+  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // slope of a straight line, up to the rounding of energies of 2 J
+  EXPECT_LT(a.oscillation, 1e-6);      // bound: square root of the rounding error of r^2
   EXPECT_NEAR(a.growth, 1, 1e-12);
   EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J of 2 K over 100 s
   EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // slope of a fitted sine: at most 6 A / (omega T^2)
@@ -74,13 +74,14 @@ TEST(NumericalDamping, IsWhatTheStabilityFunctionSays) {
       const auto theory = damping_by_theory(method, h, 10);
       ASSERT_TRUE(found.rate && theory);
       if (*theory == 0) {
-        // fitted slope of an oscillation of ln(E) with amplitude at most h omega, over the run
+        // bound on the slope of a line fitted to ln(E) over the run, if ln(E) oscillates with an amplitude of at most h
+        // omega
         EXPECT_LT(std::abs(*found.rate), 6 * 10 * h / (400 * h));
         continue;
       }
       ++damped;
-      // Rounding of 1e-13 of 1 mm, and solves to 1e-10 of the forces. The link of the position-based world is stiffer
-      // than Hooke's law by half the strain of 1e-3.
+      // Allows for rounding errors of 1e-13 relative to 1 mm, and for solvers that stop at 1e-10 of the forces. The
+      // link of the position-based world is stiffer than Hooke's law by half the strain of 1e-3.
       const bool linked = std::string(name) == "bullet/pbd";
       EXPECT_NEAR(*found.rate, *theory, (linked ? 5e-4 : 1e-7) * std::abs(*theory) + 1e-10);
     }
@@ -93,16 +94,17 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
     for (const auto method : {"symplectic-euler", "leapfrog", "suzuki4", "bullet/deformable-explicit"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const ResidualStatistics r = long_run(method, scene, 2e-3, 20000);
-      // A random walk grows with exponent 0.5 and a drift with 1. A tenth of 0.5 is allowed because the maxima of two
-      // vibrations rarely coincide.
+      // A random walk would have the exponent 0.5, and a drift 1. The bound is a tenth of 0.5, because the maxima of
+      // two vibrations rarely coincide.
       EXPECT_LT(r.growth, 0.05);
-      // 6 A / (Omega T) as above is 0.03 for Omega of twice the slowest frequency (the pendulum's swing); the bound is
-      // twice that
+      // For Omega of twice the slowest frequency (the pendulum's swing), 6 A / (Omega T) as above is 0.03; the bound is
+      // twice as large.
       EXPECT_LT(std::abs(r.drift) * 40, 0.06 * r.worst);
     }
     for (const auto method : {"trapezoidal", "rk4"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
-      // Proportional to time. A superposed oscillation may reach a tenth of the drift in the first tenth: log10(1.1).
+      // The error is proportional to time. In the first tenth, a superposed oscillation may reach a tenth of the drift:
+      // log10(1.1).
       EXPECT_NEAR(long_run(method, scene, 2e-3, 20000).growth, 1, 0.045);
     }
   }
@@ -117,12 +119,12 @@ TEST(LongEnergy, ImplicitMidpointKeepsItWhereForcesAreLinear) {
       fmt::print("{} h = {}: residual {:.2g} of the energy per step\n", name, h,
                  exact.worst / exact.energy_scale / steps);
       EXPECT_LT(exact.worst, 1e-12 * exact.energy_scale * steps);
-      // in contrast to a rule of the same order that is not exact
+      // a rule of the same order that is not exact has a larger residual
       EXPECT_GT(long_run("leapfrog", scene, h, steps).worst, 100 * exact.worst);
     }
 }
 
-/// The small cloth swinging, with one state and one row per step, and its constants written out.
+/// The small cloth swings, with one state and one row per step. Its constants are written out here.
 struct Swinging : Observer {
   static constexpr double h = 1e-3, mass = 0.25 / 25, g = 9.81;
   static constexpr int first_free = 5, particles = 25;  // the upper edge is pinned
@@ -145,7 +147,8 @@ struct Swinging : Observer {
 };
 
 TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
-  // independent sums over the trajectory: half m (v1^2 - v0^2) = m (v1 - v0) . (v1 + v0) / 2, and m g . (x1 - x0)
+  // sums of two independent expressions over the trajectory: half m (v1^2 - v0^2) = m (v1 - v0) . (v1 + v0) / 2, and m
+  // g . (x1 - x0)
   for (const Method& method : all_methods()) {
     if (!method.name.starts_with("mysim/") && !method.name.starts_with("bullet/")) continue;
     SCOPED_TRACE(method.name);
@@ -158,18 +161,18 @@ TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
         gravity += s.mass * s.g * (now_at.x - before.x)(1, p);
       }
       const Energy &now = s.rows[i].energy, &start = s.rows[0].energy;
-      const double scale = now.kinetic + s.g * 0.25;  // J: 0.25 kg falling by up to a metre
+      const double scale = now.kinetic + s.g * 0.25;  // J: 0.25 kg that falls by up to a metre
       worst = std::max({worst, std::abs(now.kinetic - start.kinetic - kinetic) / scale,
                         std::abs(now.gravitational - start.gravitational - gravity) / scale});
     }
-    EXPECT_LT(worst, 200 * 4 * eps);  // some ulps of the scale in each step
+    EXPECT_LT(worst, 200 * 4 * eps);  // some ulps of `scale` in each step
     EXPECT_GT(std::abs(gravity), 1e-3);
   }
 }
 
 TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
-  // x1 - x0 = h (old v0 + next v1), and gravity's work is m g times that. If the rule uses the force at the start of
-  // the step, m (v1 - v0) = h F(x0, v0), and the kinetic energy changes by h F . (v0 + v1) / 2.
+  // x1 - x0 = h (old v0 + next v1), so that gravity's work is m g times this. If the rule uses the force at the start
+  // of the step, m (v1 - v0) = h F(x0, v0), and the kinetic energy changes by h F . (v0 + v1) / 2.
   struct Rule {
     const char* method;
     double old, next;
@@ -196,7 +199,8 @@ TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
       off_gravity = std::max(off_gravity, std::abs(now.gravitational - last.gravitational - gravity));
       off_kinetic = std::max(off_kinetic, std::abs(now.kinetic - last.kinetic - kinetic));
     }
-    // Some ulps of 2.5 J in each row. For other rules, the force at the start has a relative error of h / period.
+    // Rounding errors are some ulps of 2.5 J in each row. For rules that do not use the force at the start, that force
+    // has a relative error of h / period.
     EXPECT_LT(off_gravity, 8 * eps * s.g * 0.25);
     EXPECT_EQ(off_kinetic < 8 * eps * s.g * 0.25, rule.force_at_start);
   }

@@ -1,5 +1,5 @@
-// Equal evidence for every engine: verdicts depend neither on units nor on whether an engine is an external program,
-// and a method's rule is identified from its runs.
+// Every engine is judged by the same evidence: verdicts depend neither on units nor on whether an engine is an external
+// program, and the rule of a method is identified from its runs.
 
 #include <optional>
 
@@ -19,7 +19,7 @@ namespace {
 using namespace testing_tools;
 using EngineRun = crosscheck::Run;
 
-/// Restricts a method to the output of an external program: only the states on which verdicts are based.
+/// Restricts a method to what an external program would output: only the states on which verdicts are based.
 Method as_program(Method method) {
   method.engine = [inner = method.engine](const Scene& scene, const EngineRun& asked, Observer& observer) {
     const TimeGrid grid = time_grid(asked);
@@ -78,7 +78,7 @@ TEST(Verdicts, DoNotDependOnALengthInMetres) {
       "[gravity]\nacceleration = [0, -9.81, 0]\n[[sphere]]\ncentre = [0, 0, 0]\nradius = 0.98\nmargin = 0.02\n"
       "friction = 0.5\n[drag]\ngamma = 3\n",
       "cloth-in-m");
-  const Scaling millimetres{1e-3, 1e-6, std::sqrt(1e-3)};  // gravity keeps its value
+  const Scaling millimetres{1e-3, 1e-6, std::sqrt(1e-3)};  // gravity has the same numerical value
   const EngineRun run{5.4945054945e-3, 0.14285714285714285, 2, 1e-6, false};
   EngineRun other = run;
   other.step *= millimetres.time, other.duration *= millimetres.time;
@@ -93,7 +93,7 @@ TEST(Verdicts, AreThoseOfAProgramWithTheSameRule) {
     const TrialScene trial = trial_scene(random);
     const Method method = find_method(std::array{"leapfrog", "symplectic-euler", "rk4", "implicit-euler"}[seed % 4]);
     const double step = std::array{0.5, 1.9, 2.1, 3.1}[seed / 4 % 4] / trial.omega;
-    // 3000 steps in 3 samples, all observed, and 30 000, of which every fifth is observed
+    // 3000 steps in 3 samples, which are all observed, or 30 000, of which every fifth is observed
     const EngineRun run{step, step * (seed % 8 == 0 ? 30000 : 3000), 3, 1e-6, false};
     const Outcome inside = outcome_of(method, trial.scene, run),
                   outside = outcome_of(as_program(method), trial.scene, run);
@@ -107,7 +107,7 @@ TEST(Verdicts, SeeWhatHappensBetweenSamples) {
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1.1, 0, 0]\nmass = 1\n[[spring]]\n"
       "ends = [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n");
-  // A large excursion in one step, after which the mass is caught again, as by a sphere.
+  // The mass makes a large excursion in one step, and is then caught again, as by a sphere.
   Method caught = with_defect("leapfrog", nullptr, [](const Scene& s, State& state) {
     if (state.t > 19 * 0.1)
       state.x = s.start.x, state.v = s.start.v;
@@ -118,7 +118,8 @@ TEST(Verdicts, SeeWhatHappensBetweenSamples) {
 }
 
 TEST(Verdicts, NoteVibrationsThatReverseInEveryStep) {
-  // Leapfrog 3 % above the limit of a chain that lies on a ball: differences over two steps hide most of the vibration.
+  // Leapfrog runs 3 % above the limit of a chain that lies on a ball. Differences over two steps hide most of the
+  // vibration.
   std::string text =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 0.79\nstep = 0.001\nwindow = 0.79\nsamples = 20\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[gravity]\nacceleration = [0, -9.81, 0]\n[[sphere]]\n"
@@ -180,7 +181,7 @@ TEST(WhichRule, IsTheOneThatTheProgramFollows) {
 }
 
 TEST(WhichRule, TellsDragApart) {
-  // drag applied after the step, exact or implicit
+  // drag is applied after the step, either exactly or implicitly
   struct Case {
     const char* name;
     double (*factor)(double z);
@@ -222,7 +223,7 @@ TEST(WhichRule, NamesTheNearestWhereItIsNone) {
   EXPECT_EQ(stepper_of(wrong), nullptr);
 }
 
-/// Ignores the requested step.
+/// A program that ignores the requested step and uses `step`.
 Method with_step(const char* base, double step) {
   Method method = find_method(base);
   method.engine = [inner = method.engine, step](const Scene& scene, const EngineRun& asked, Observer& observer) {
@@ -267,7 +268,7 @@ TEST(WhichRule, OfBulletsWorldsIsMeasuredToo) {
   EXPECT_EQ(rule_of(find_method("bullet/deformable-implicit")), "implicit-euler+linear, solver above rounding");
 }
 
-/// Positions are stored in single precision, and velocities are their differences.
+/// A program that stores positions in single precision, and reports their differences as velocities.
 Method in_single_precision(const char* rule, bool reversed) {
   Method method = find_method(rule);
   method.engine = [step = stepper(rule).step, reversed](const Scene& asked, const EngineRun& run, Observer& observer) {
@@ -315,7 +316,7 @@ TEST(RowsOfRules, HangOnTheRuleFoundAndNotOnAName) {
   EXPECT_TRUE(contains(breaks, "known")) << breaks;
   for (const char* name : {"exec:./jolt", "exec:./leapfrog", "exec:./bullet/pbd"})
     EXPECT_EQ(marks(xpbd, name), breaks) << name;
-  // a name excuses no defect
+  // a correct name does not excuse a defect
   Method idle = right;
   idle.engine = [](const Scene& scene, const EngineRun& run, Observer& observer) {
     Outcome out{.step = time_grid(run).h};
@@ -371,7 +372,8 @@ TEST(RelationsOfPrograms, AreBrokenByControlEngines) {
   EXPECT_TRUE(breaks(leaking, "energy"));
 }
 
-/// Free fall with kicks and drifts split into parts, each of which is rounded, and with the force scaled by a factor.
+/// Free fall whose kicks and drifts are split into several parts, each of which is rounded. The force is scaled by
+/// `factor`.
 Method in_parts(int kicks, int drifts, bool kick_first, double factor) {
   Method method = find_method("leapfrog");
   method.engine = [=](const Scene& scene, const EngineRun& run, Observer& observer) {
@@ -401,7 +403,7 @@ Method in_parts(int kicks, int drifts, bool kick_first, double factor) {
 }
 
 TEST(FreeFall, AllowsForTheRoundingOfKicksInPartsAndNoMore) {
-  // A force error of 1e-9 moves a net by 5e-9 m in 1 s; rounding moves it by 1e-13 m.
+  // A relative error of 1e-9 in the force moves a net by 5e-9 m in 1 s; rounding moves it by 1e-13 m.
   for (const bool kick_first : {true, false})
     for (const auto& [kicks, drifts] : {std::pair{1, 1}, {2, 1}, {1, 2}, {3, 2}})
       for (const double step : {1.0, 0.7, 0.31})

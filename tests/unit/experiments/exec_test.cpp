@@ -1,4 +1,4 @@
-// Misbehaving programs: each failure gives a verdict with a clear message and never crashes the suite.
+// Misbehaving programs: each failure yields a verdict with a clear message, and never crashes the suite.
 
 #include <signal.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +41,7 @@ class Exec : public InFolder {
     write("few-frames.npy", npy_bytes({right.x.begin(), right.x.end() - 1}));
     write("few-particles.npy", npy_bytes(std::vector<Points>(5, Points::Zero(3, 3))));
   }
-  /// Shell command that writes the file to the output.
+  /// Shell command that copies a prepared file to the program's output folder.
   std::string deliver(const std::string& file, const std::string& as = "trajectory.npy") const {
     return "cp '" + (folder_ / file).string() + "' \"$2/" + as + "\"\n";
   }
@@ -49,11 +49,11 @@ class Exec : public InFolder {
     return run_and_record("exec:" + script("engine", text) + options, scene_, run_);
   }
   const Scene scene_ = load_scene("chain");
-  const crosscheck::Run run_{1e-3, 0.004, 4};  // a sample per step: programs write no other states
+  const crosscheck::Run run_{1e-3, 0.004, 4};  // one sample per step, because programs write no other states
 };
 
 TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
-  // An engine with correct parameters but another spring law: every number that it reports is right.
+  // An engine with correct parameters but another spring law: all numbers that it reads back are correct.
   Json readback{{"precision", "double"}};
   const Particles& p = scene_.model.particles;
   readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
@@ -141,7 +141,8 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
 }
 
 TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
-  // Each case leaves a process that keeps writing until it is killed, with its output closed or open.
+  // In each case, a process remains that keeps writing until it is killed. Its standard output is either closed or
+  // open.
   write("beat.sh", "while :; do echo >> '" + (folder_ / "beats").string() + "'; sleep 0.02; done\n");
   const std::string beat = "sh '" + (folder_ / "beat.sh").string() + "'", quiet = " > /dev/null 2>&1 &\n",
                     wait = "while ! [ -s '" + (folder_ / "beats").string() + "' ]; do sleep 0.01; done\n";
@@ -159,7 +160,7 @@ TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
     EXPECT_EQ(a.outcome.remark, "it left a process behind, which was killed");
     const auto beats = std::filesystem::file_size(folder_ / "beats");
     EXPECT_GT(beats, 0u);
-    usleep(100000);  // the duration of five beats
+    usleep(100000);  // process would write five times in this period
     EXPECT_EQ(std::filesystem::file_size(folder_ / "beats"), beats) << "the process is still alive";
   }
 }
@@ -179,7 +180,7 @@ TEST_F(Exec, TemporaryFoldersOfAKilledProgramGoWithIt) {
 
 TEST_F(Exec, AProgramThatKillsItsParentHarmsNobody) {
   const MethodRun a = run("kill -KILL $PPID\n" + deliver("x.npy"));
-  // In a pid namespace nothing happens. Elsewhere the watcher is killed, which is reported.
+  // The kill has no effect in a pid namespace. Elsewhere it ends the watcher, and this is reported.
   if (a.outcome.verdict == Verdict::ok)
     EXPECT_EQ(a.trajectory.frames(), 5);
   else
@@ -208,7 +209,7 @@ TEST_F(Exec, APinThatIsLedAwayIsTold) {
   const struct {
     double off;
     std::string remark;
-  } cases[] = {{1e-7, ""},  // allowed rounding in single precision: sixteen half ulps of 3 m are 3e-6 m
+  } cases[] = {{1e-7, ""},  // allowed rounding in single precision: sixteen half ulps of 3 m, which are 3e-6 m
                {1e-3, "it led the pinned particle 0 away from where it is prescribed: 0.001 m at t = 0.002 s"}};
   for (const auto& [off, remark] : cases) {
     auto x = right.x;
@@ -255,7 +256,7 @@ TEST_F(Exec, SeesTheSceneAndIsSeenAsOtherMethodsAre) {
   EXPECT_EQ(a.outcome.step, 1e-3);
   EXPECT_DOUBLE_EQ(a.outcome.end, 0.004);
   EXPECT_GT(a.outcome.process_seconds, 0);
-  EXPECT_LT(a.outcome.process_seconds, 25);  // the shell's time; the program's own statement is not used
+  EXPECT_LT(a.outcome.process_seconds, 25);  // the shell's time; the time that the program states is not used
   EXPECT_EQ(a.outcome.different_law, std::vector<std::string>{"drag: none"});
 }
 
@@ -304,7 +305,7 @@ TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
 TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
   const std::string plain = script("engine", ""), odd = script("engine+n=2", "");
   EXPECT_EQ(find_program(plain).path, plain);
-  EXPECT_EQ(find_program(odd).path, odd);  // a file with the full name exists
+  EXPECT_EQ(find_program(odd).path, odd);  // a file with this full name, including the "+", exists
   EXPECT_TRUE(find_program(odd).options.empty());
   const Program more = find_program(odd + "+n=3+timeout=7.5+path=/a/b");
   EXPECT_EQ(more.path, odd);
@@ -360,8 +361,8 @@ TEST_F(Exec, ATrajectoryFromAFileIsAMethod) {
   }
 }
 
-// Serve mode. The program counts its starts. `answer` is the server's reaction to the request in $line, with its paths
-// in $scene and $out.
+// Serve mode. The program counts how often it is started. `answer` is the server's reaction to the request in $line,
+// whose paths are in $scene and $out.
 class ExecServer : public Exec {
  protected:
   Method server(const std::string& answer, const std::string& options = "") const {
@@ -456,7 +457,7 @@ TEST_F(ExecServer, LeavesNothingBehindAtTheTimeLimitAndWithItsMethod) {
     }
     const auto size = fs::file_size(beats);
     EXPECT_GT(size, 0u);
-    usleep(100000);  // the duration of five beats
+    usleep(100000);  // process would write five times in this period
     EXPECT_EQ(fs::file_size(beats), size) << "the process is still alive";
   }
 }

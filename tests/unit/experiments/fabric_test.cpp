@@ -1,5 +1,5 @@
-// Strips of cloth compared with the elastica: the boundary value problem against published and limiting values, drops
-// and frequencies under grid refinement, and skip-one springs in the same tests.
+// Strips of cloth compared with the elastica: the boundary value problem is compared with published and limiting
+// values; drops and frequencies are tested under grid refinement, and so are skip-one springs.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -22,7 +22,7 @@ using namespace testing_tools;
 ClampedStrip strip_of(double gamma, double load = 0) { return {1, 1, gamma, load, 1}; }
 
 TEST(Elastica, HasItsLimits) {
-  // a stiff strip is a beam: w L^4 / 8 B and P L^3 / 3 B, with deviations of second order
+  // a stiff strip is a beam with drops of w L^4 / 8 B and P L^3 / 3 B; deviations are of second order
   EXPECT_NEAR(Elastica(strip_of(1e-4)).tip().drop, 1e-4 / 8, 1e-12);
   EXPECT_NEAR(Elastica(strip_of(0, 1e-4)).tip().drop, 1e-4 / 3, 1e-11);
   // Under a tip load, B theta'^2 / 2 = P (sin theta_L - sin theta), so sqrt(2 P L^2 / B) is the integral of dtheta /
@@ -38,10 +38,10 @@ TEST(Elastica, HasItsLimits) {
     drop += std::sin(end - u * u) * ds;
   }
   EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule: (top / n)^2 times the second derivative
-  // moments about the clamp: B theta'(0) = P x(L), estimated from the angle over the first thousandth
+  // moments about the clamp: B theta'(0) = P x(L), where theta' is estimated from the angle over the first thousandth
   EXPECT_NEAR(loaded.at(1e-3).angle / 1e-3, 2 * loaded.tip().x, 2e-3);
-  // the integral of sin theta with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945,
-  // with elliptic integrals)
+  // the drop is the integral of sin theta, with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl.
+  // Math. 3, 1945, with elliptic integrals)
   EXPECT_NEAR(loaded.tip().drop, drop / std::sqrt(2 * 2.), 1e-7);
 }
 
@@ -57,8 +57,8 @@ TEST(Elastica, DropsDeeperTheHeavierAndKeepsItsLength) {
       const auto a = elastica.at(i * 1e-3), b = elastica.at((i + 1) * 1e-3);
       length += std::hypot(b.x - a.x, b.drop - a.drop);
     }
-    // Chords are shorter than arcs of length s = 1e-3 by a relative (kappa s)^2 / 24, with curvatures kappa up to about
-    // gamma^(1/3).
+    // A chord is shorter than its arc of length s = 1e-3 by a relative (kappa s)^2 / 24. The curvature kappa is at most
+    // about gamma^(1/3).
     EXPECT_NEAR(length, 1, std::pow(gamma, 2. / 3) * 2e-7);
     before = tip.drop;
   }
@@ -89,17 +89,17 @@ TEST(Fabric, ACantileverHangsAsTheElasticaToTheSecondOrder) {
 
 TEST(HangingStrip, IsACatenaryInTheLimit) {
   const HangingStrip loose(2, 1.4, 3, 0);
-  // height h at arc length s belongs to a catenary of c = (s^2 - h^2) / 2 h for every s
+  // a point with height h at arc length s lies on a catenary with c = (s^2 - h^2) / 2 h for every s
   const double h = loose.at(0.5).height, c = (0.25 - h * h) / (2 * h);
   EXPECT_NEAR(loose.at(1).x, 0.7, 1e-12);
   EXPECT_NEAR(loose.at(-1).x, -0.7, 1e-12);
   EXPECT_NEAR(loose.sag(), c * (std::cosh(0.7 / c) - 1), 1e-12);
-  // With little rigidity the sag changes in proportion to it, except for boundary layers of (B / H)^(1/2) at the
-  // hinges. They cover a twentieth of the half strip and shrink with the square root of the rigidity.
+  // With low rigidity, the sag changes in proportion to the rigidity, except for boundary layers of length (B /
+  // H)^(1/2) at the hinges. These cover a twentieth of the half strip, and shrink with the square root of the rigidity.
   const HangingStrip limp(2, 1.4, 3, 0.006), limper(2, 1.4, 3, 0.003);
   EXPECT_NEAR((limp.sag() - loose.sag()) / (limper.sag() - loose.sag()), 2, 0.25);
   EXPECT_NEAR(limp.at(1).x, 0.7, 1e-9);
-  // values interpolated between integration steps agree with those on them
+  // values interpolated between integration steps agree with values at the steps
   EXPECT_NEAR((limp.at(0.50005).height - limp.at(0.49995).height) / 1e-4,
               (limp.at(0.5005).height - limp.at(0.4995).height) / 1e-3, 1e-6);
 }
@@ -122,7 +122,7 @@ TEST(Fabric, AStripBetweenHingesHangsAsTheContinuumToTheSecondOrder) {
 }
 
 TEST(DrapedDisc, BendsAsAPlateOfGivenDeflection) {
-  // a flat sheet, tilted or not, has no energy
+  // a flat sheet has no energy, tilted or not
   const DrapedDisc disc{16, 2e-5};
   const auto energy_of_heights = [](const DrapedDisc& d, auto height) {
     const Scene scene = disc_scene(d);
@@ -133,9 +133,9 @@ TEST(DrapedDisc, BendsAsAPlateOfGivenDeflection) {
   };
   EXPECT_LT(energy_of_heights(disc, [](double r, double t) { return r * std::cos(t + 1); }),
             1e-22 * energy_of_heights(disc, [](double r, double) { return r * r; }));
-  // r^3 cos 3t has x_rr = 6 r cos 3t = -(x_r / r + x_tt / r^2) and (x_t / r)_r = -6 r sin 3t. For constant r each of
-  // them contributes 36 pi r^3 B / 2, the twist twice. The x_rr part extends to half a spacing before the rim, which
-  // carries no moment, and the twist starts half a spacing inside the edge of the disc.
+  // For r^3 cos 3t, x_rr = 6 r cos 3t = -(x_r / r + x_tt / r^2), and (x_t / r)_r = -6 r sin 3t. On a ring of radius r,
+  // each of these contributes 36 pi r^3 B / 2, and the twist (x_t / r)_r twice that. The x_rr part extends to half a
+  // spacing before the rim, which carries no moment, and the twist starts half a spacing inside the edge of the disc.
   const auto deviation = [&](int rings) {
     const DrapedDisc d{rings, 2e-5};
     const double half = d.spacing() / 2;
@@ -160,7 +160,7 @@ TEST(DrapedDisc, ItsForcesAreTheSlopeOfItsEnergy) {
   add_force(bending, scene.model.particles, s, forces);
   for (const int i : {disc.particle(2, 0), disc.particle(5, 11), disc.particle(9, 79)})
     for (int axis = 0; axis < 3; ++axis) {
-      // the energy is quadratic, so the central difference has only rounding errors
+      // the energy is quadratic, so that the central difference has rounding errors only
       const double at = s.x(axis, i), step = 1e-3;
       s.x(axis, i) = at + step;
       const double above = potential_energy(bending, scene.model.particles, s);
@@ -172,7 +172,8 @@ TEST(DrapedDisc, ItsForcesAreTheSlopeOfItsEnergy) {
 }
 
 TEST(DrapedDisc, IsIsotropicInItsPlane) {
-  // uniform strain along axes at any angle: C11 (a^2 + b^2) / 2 + C12 a b per area, with C12 = C11 / 3
+  // for a uniform strain along axes at any angle, the energy per area is C11 (a^2 + b^2) / 2 + C12 a b, with C12 = C11
+  // / 3
   const DrapedDisc disc{8, 2e-5};
   const Scene scene = disc_scene(disc);
   const double a = 1e-6, b = -0.4e-6, c11 = 3 * disc.shear;
@@ -188,15 +189,15 @@ TEST(DrapedDisc, IsIsotropicInItsPlane) {
       s.x(0, i) = at.x(), s.x(2, i) = at.y();
     }
     const double energy = potential_energy(*scene.model.find<Springs>(), scene.model.particles, s);
-    // With spokes at angles of 2 pi / 80 the cells are trapezia, and the first spring of the ring has half a cell too
-    // much.
+    // With spokes at angles of 2 pi / 80, the cells are trapezia, and the springs of the first ring count half a cell
+    // too much.
     EXPECT_NEAR(energy / (area * (c11 * (a * a + b * b) / 2 + c11 / 3 * a * b)), 1, 0.03);
   }
 }
 
-/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0: w =
-/// q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r. Boundary conditions: w = w' = 0 at a; w'' = 0 and (w'' + w' / r)' =
-/// 0 at b (S. Timoshenko and S. Woinowsky-Krieger, chapter 3).
+/// Deflection of the rim of a plate of Poisson's ratio 0 that is clamped at r = a and free at r = b, under a load q per
+/// area: w = q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r. Boundary conditions: w = w' = 0 at a; w'' = 0 and (w'' +
+/// w' / r)' = 0 at b (S. Timoshenko and S. Woinowsky-Krieger, chapter 3).
 double rim_of_plate(double a, double b, double q, double rigidity) {
   const double unit = q / (64 * rigidity);
   Eigen::Matrix4d m;
@@ -231,9 +232,9 @@ TEST(DrapedDisc, SagsAsAPlateUnderALightLoad) {
 TEST(DrapedDisc, ItsCoefficientIsThatOfKnownShadows) {
   const DrapedDisc disc{8, 2e-5};
   Points x = disc_scene(disc).start.x;
-  // error from sampling a round edge by rows of height 2 R / 2000
+  // the error comes from sampling a round edge by rows of height 2 R / 2000
   EXPECT_NEAR(drape_coefficient(disc, x), 100, 2e-3);
-  // folded over its disc, so that its shadow has the radius r computed here
+  // the cloth is folded over its disc, so that its shadow has the radius r computed here
   for (int i = 2; i <= disc.rings + 1; ++i)
     for (int j = 0; j < disc.spokes(); ++j) {
       const double shrunk = (0.09 + 0.6 * (disc.radius(i) - 0.09)) / disc.radius(i);
@@ -274,8 +275,8 @@ TEST(Fabric, AStripVibratesAsAClampedBeam) {
 }
 
 TEST(Fabric, SkipOneSpringsAreAnotherStripOnEveryGrid) {
-  // Four times as many cells with the same k divide the total angle into quarter angles per cell. The energy depends on
-  // their fourth powers, so that the strip behaves nearly like a chain.
+  // Four times as many cells with the same k divide the total angle into cells with a quarter of the angle. The energy
+  // depends on the fourth power of these angles, so that the strip behaves nearly like a chain.
   StripNet net{16, 5};
   net.skip_one = 2000;
   const auto drop = [&](int cells) {

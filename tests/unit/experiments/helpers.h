@@ -40,7 +40,7 @@ inline Scene with_grid(const std::string& name, int n) {
   std::vector<int> pins{0, n - 1};
   if (old.size() > 2) {
     pins.resize(n);
-    for (int i = 0; i < n; ++i) pins[i] = old[1] == 1 ? i : i * n;  // along the first row, or down the first column
+    for (int i = 0; i < n; ++i) pins[i] = old[1] == 1 ? i : i * n;  // along the first row, or along the first column
   }
   text = std::regex_replace(text, std::regex(R"(\nparticles = \[[^\]]*\])"),
                             fmt::format("\nparticles = [{}]", fmt::join(pins, ", ")));
@@ -57,14 +57,14 @@ inline Scene with_lengths(Scene scene, double factor) {
   return scene;
 }
 
-/// A shipped scene in three sizes, which differ in the grid resolution or, for scenes without a grid, in lengths.
+/// A shipped scene in three sizes. They differ in the resolution of the grid or, for scenes without a grid, in lengths.
 inline std::vector<Scene> three_sizes(const std::string& name) {
   const Scene scene = load_scene(name);
   // a strip of two rows has no square grid
   if (scene.triangles.empty() || name == "cloth-cantilever")
     return {with_lengths(scene, 0.5), scene, with_lengths(scene, 2)};
   std::vector<int> sizes{10, 15, 20};
-  if (name == "cloth-student") sizes = {4, 6, 8};  // finer ones are chaotic
+  if (name == "cloth-student") sizes = {4, 6, 8};  // larger cloths are chaotic
   if (name == "flag") sizes = {6, 9, 12};          // finer ones flutter
   std::vector<Scene> scenes;
   for (const int n : sizes) scenes.push_back(with_grid(name, n));
@@ -81,7 +81,7 @@ inline ClampedStrip strip_of(const Scene& scene) {
       .weight = -scene.model.find<Gravity>()->acceleration.y() * scene.model.particles.mass.sum() / (columns * d * d)};
 }
 
-/// Leapfrog that refuses steps longer than `step`, as Bullet's clamped world does.
+/// Leapfrog that refuses steps longer than `step`, like Bullet's world with clamped speeds.
 inline Method refusing_above(double step) {
   Method method = find_method("leapfrog");
   method.engine = [inner = method.engine, step](const Scene& scene, const crosscheck::Run& run, Observer& observer) {

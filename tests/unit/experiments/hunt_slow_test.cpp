@@ -1,4 +1,4 @@
-// The hunter detects an engine with a single defect and shrinks the scene that shows it.
+// The hunter detects an engine with a single defect, and reduces the scene that shows the defect.
 
 #include <ctime>
 
@@ -13,7 +13,7 @@ using namespace testing_tools;
 
 struct Mutant {
   const char* what;
-  const char* kind;  // substring of the kind of the smallest scene
+  const char* kind;  // part of the expected kind of the smallest scene
   const char* base;
   ChangeScene wrong;
   const char* beside;

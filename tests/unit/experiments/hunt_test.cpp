@@ -1,4 +1,4 @@
-// The hunter: random scenes, shrinking, and agreement of methods.
+// The hunter: random scenes, their reduction, and the agreement of methods.
 
 #include "tests/hunt/hunt.h"
 #include "experiments/check/compare.h"
@@ -40,7 +40,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
     for (const Relation& relation : relations())
       if (relation.excluded(scene).empty()) asked.emplace(relation.name);
   }
-  // without aerodynamics, which acts on the triangles of a grid
+  // all terms except aerodynamics, which acts on the triangles of a grid
   EXPECT_EQ(terms, (std::set<std::string>{"rotation", "gravity", "springs", "dashpots", "constraints", "drag", "wind",
                                           "sphere"}));
   EXPECT_EQ(families.size(), 4U);
@@ -48,7 +48,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
   for (const Relation& relation : relations()) EXPECT_TRUE(asked.contains(std::string(relation.name))) << relation.name;
 }
 
-/// A net of many particles, and a property that depends only on gravity and one shear spring.
+/// A net of many particles; the tests reduce it for properties that depend on gravity and one shear spring only.
 SceneDraft large_draft() {
   for (long index = 0;; index += drawn_kinds) {
     SceneDraft draft = draw(5, index);
@@ -78,7 +78,8 @@ TEST(Shrink, FindsTheSmallestThatStillShowsIt) {
 }
 
 TEST(Shrink, KeepsWhatTogetherIsNeeded) {
-  // Needs a sum of masses that only three particles reach, and a duration that can be halved only once.
+  // The property holds for a sum of masses that needs at least three particles, and for a duration that can be halved
+  // only once.
   SceneDraft draft = large_draft();
   for (auto& p : draft.particles) p.mass = 0.4;
   const double duration = draft.duration;
@@ -147,7 +148,7 @@ TEST(ShippedKnownBreaks, HaveTheStepThatBulletRoundsToSinglePrecision) {
       << "this step is exact in single precision";
   const Answer rounded = ask(momentum, pbd, flight(0.01), 1, known);
   EXPECT_EQ(rounded.mark, RelationMark::known) << rounded.sentence();
-  // Relative to its path of 1 m. The row's sentence has two digits, hence 1 %.
+  // The change is relative to the path of 1 m. The row's sentence has two digits, hence the tolerance of 1 %.
   const double expected = 1 - double(0.01F) / 0.01;
   EXPECT_NEAR(rounded.finding.measured, expected, 0.01 * expected) << rounded.sentence();
 }
@@ -174,7 +175,7 @@ TEST(Hunt, KeepsTheSmallestSceneOfEachBreak) {
   EXPECT_EQ(answer.relation->name, "agreement");
   EXPECT_EQ(smallest.draft.kind(), "gravity");
   EXPECT_EQ(smallest.draft.size(), 1);
-  // the file alone reproduces the answer
+  // the file alone suffices to reproduce the answer
   Subject a(hunt.methods[0]), b(hunt.methods[1]);
   EXPECT_EQ(ask_agreement(a, b, smallest.draft.scene(), {}).sentence(), answer.sentence());
   const std::vector<Break> again = breaks_of(hunt, projectile, answers);

@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// A flat cloth stays near saddles of the potential, where Newton's steps are short, before it wrinkles to either side.
+/// Before it wrinkles to either side, a flat cloth stays near saddles of the potential, where Newton's steps are short.
 TEST(ImplicitCloth, WrinklesOfALargeSheetAtLongStepsAreFound) {
   const Scene scene = hanging_cloth(128);
   System f(scene.model);

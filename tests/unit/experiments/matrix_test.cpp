@@ -40,7 +40,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
     const auto theory =
         damping_by_theory(find_method(example ? "symplectic-euler" : row.method), step, oscillator_omega);
     ASSERT_TRUE(theory && row.value && row.bar);
-    // The smallest rate here is rk4's, 7e-7 /s. The step differs from the theoretical one by a relative 1e-9.
+    // The smallest rate here is 7e-7 /s, for rk4. The step has a relative error of 1e-9.
     EXPECT_LT(*row.bar, 2e-7);
     EXPECT_NEAR(*row.value, *theory, *row.bar + 2e-9 * std::abs(*theory));
     ++compared;
@@ -48,7 +48,8 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   EXPECT_EQ(compared, 6);
 }
 
-/// The example engine under the name of a kept program, whose engine offers springs as forces by another rule.
+/// The example engine, installed under the name of a kept program whose engine offers springs as user-supplied forces
+/// that follow another rule.
 TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   const SetVariable cache("CROSSCHECK_CACHE", folder_.c_str());
   const auto program = kept_program("rapier");
@@ -58,7 +59,7 @@ TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   for (const auto& row : rows_of<MatrixRow<false>>(untimed_rows("leapfrog,exec:" + program.string()))) {
     if (row.question != EngineQuestion::damping_by_forces) continue;
     EXPECT_EQ(row.method, "exec:" + program.string());
-    // the example engine ignores options: symplectic Euler adds no damping
+    // the example engine ignores options, so the rule is symplectic Euler, which adds no damping
     ASSERT_TRUE(row.value && row.bar);
     EXPECT_LE(std::abs(*row.value), *row.bar);
     ++answers;

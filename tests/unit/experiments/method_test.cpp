@@ -1,4 +1,4 @@
-// Methods: names, options and messages; missing features give a row; every method runs on every shipped scene.
+// Methods: names, options and messages. A missing feature gives a row, and every method runs on every shipped scene.
 
 #include <fmt/format.h>
 
@@ -68,7 +68,8 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
   EXPECT_GT(files, 100);
 }
 
-/// Files with method names as data: Bullet's settings, rows of the bench, and chart styles of methods and classes.
+/// Files that contain method names as data: Bullet's settings, rows of the bench, and chart styles of methods and
+/// classes.
 constexpr std::string_view name_methods_as_data[] = {
     "experiments/disagreements/table.cpp", "experiments/stiffness/stiffness.cpp", "experiments/stiffness/effective.cpp",
     "experiments/bench/bench.cpp",         "report/commands/grader.cpp",          "report/figures/figure.cpp"};
@@ -114,7 +115,7 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
   EXPECT_EQ(find_method("leapfrog+sticky").name, "mysim/leapfrog+sticky");
   EXPECT_EQ(find_method("bullet/pbd+n=10").name, "bullet/pbd+n=10");
-  // A contact rule does not change the rule on contact-free scenes; other options do.
+  // Options for contact do not change the rule on contact-free scenes; other options do.
   EXPECT_EQ(rule_of(find_method("symplectic-euler")), rule_of(find_method("bullet/deformable-explicit")));
   EXPECT_EQ(rule_of(find_method("symplectic-euler+sticky")), rule_of(find_method("symplectic-euler")));
   EXPECT_EQ(rule_of(find_method("implicit-euler+linear")), rule_of(find_method("bullet/deformable-implicit+tight")));
@@ -232,7 +233,7 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
       EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }
-    // at least every stepper that supports the scene
+    // every stepper that supports the scene must accept it
     for (const Stepper& s : steppers()) accepted -= takes(s, scene);
     EXPECT_GE(accepted, 0);
   }
@@ -248,7 +249,7 @@ TEST(Methods, EveryMethodAgreesWithTheTruthOnTheSpring) {
     Recorder r;
     const Outcome out = run_method(m, scene, run, {&r});
     if (out.verdict == Verdict::unsupported || !out.different_law.empty()) continue;
-    // A first-order rule is off by at most h omega^2 t / 2 = 5e-3 times the amplitude of 0.2 m.
+    // A first-order rule is off by at most h omega^2 t / 2 = 5e-3, relative to the amplitude of 0.2 m.
     EXPECT_LT(sup_rms(r.trajectory, exact.trajectory), 1e-3);
   }
 }
@@ -264,7 +265,7 @@ TEST(Metrics, OfKnownStates) {
   Points x = scene.start.x, v = scene.start.v;
   x.col(1) = Vec3(2, -0.25, 0);
   v.col(1) = Vec3(0.3, 5, 0.4);
-  EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // only along the surface
+  EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // only the motion along the surface counts
   EXPECT_FALSE(clearance(small_cloth(), 0, small_cloth().start.x));
   Trajectory t{{0, 1}, {scene.start.x, x}, {v, v}};
   EXPECT_DOUBLE_EQ(motion_of(t), 0.25 / std::sqrt(3.0));

@@ -1,4 +1,4 @@
-// Moduli of nets: the formula for their springs against the energy of strained nets.
+// Moduli of nets: the formula based on their springs, compared with the energy of strained nets.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -16,9 +16,9 @@ namespace {
 
 using namespace testing_tools;
 
-// Springs are not linear: strains of 1e-4 cause a relative error of 1e-8 in energies that are averaged over the sign of
-// the strain. Differences of energies of 1e-8 k d^2 are rounded to 1e-16 of the energy of all springs, which is 1e3
-// times as large.
+// Springs are not linear: strains of 1e-4 cause a relative error of 1e-8 in energies averaged over both signs of the
+// strain. Differences between energies are about 1e-8 k d^2, and are rounded to 1e-16 of the energy of all springs,
+// which is 1e3 times as large.
 constexpr double enough = 1e-5;
 
 std::string cloth(const std::string& size, const std::string& u, const std::string& v, const std::string& stiffness,
@@ -51,7 +51,7 @@ TEST(Moduli, OfTwentyRandomNetsTheyAreThoseOfStrainedEnergies) {
     EXPECT_NEAR(m.c22, c(1, 1), enough * m.c11);
     EXPECT_NEAR(m.c12, c(0, 1), enough * m.c11);
     EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
-    // closed forms of a square net
+    // closed forms for a square net
     EXPECT_NEAR(m.c11, net.structural + net.shear + 4 * net.bend, 1e-9 * m.c11);
     EXPECT_NEAR(m.c12, net.shear, 1e-9 * m.c11);
     for (const double angle : {0., 0.3, 0.7})
@@ -124,7 +124,7 @@ TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
   Scene uneven = load_scene("cloth-hang");
   uneven.model.find<Springs>()->list[0].k *= 2;
   EXPECT_EQ(moduli_of(uneven.model, uneven.start).why_not, "its springs differ from place to place");
-  Scene twice = load_scene("cloth-hang");  // with an extra particle without springs, at the position of another
+  Scene twice = load_scene("cloth-hang");  // has an extra particle without springs at the position of another particle
   const long n = twice.start.x.cols();
   twice.start.x.conservativeResize(3, n + 1);
   twice.start.x.col(n) = twice.start.x.col(210);

@@ -1,5 +1,5 @@
-// Linear systems of implicit steps on cloths: solved to tolerance for any size, pins and instruction set, with
-// iteration counts that hardly depend on the size.
+// Linear systems of implicit steps on cloths are solved to the tolerance for any size, pins and instruction set, and
+// the number of iterations hardly depends on the size.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// A crumpled cloth with arbitrary pins: data of a linear system, and its matrix in sparse form.
+/// A crumpled cloth with arbitrary pins: the data of a linear system, and the system's matrix in sparse form.
 struct Problem {
   simd::GridTopology topology;
   std::vector<int> pins;
@@ -53,7 +53,7 @@ struct Problem {
     p.pins = pins;
   }
 
-  /// inertia + K, with 1 on the diagonal of pins.
+  /// The matrix inertia + K, with 1 on the diagonal for pins.
   Eigen::SparseMatrix<double> matrix(Curvature curvature) const {
     Tangent tangent;
     add_tangent(*model.find<Springs>(), model.particles, {0, x, {}}, curvature, tangent);
@@ -85,7 +85,7 @@ CgResult solve(const Problem& p, simd::InstructionSet isa, Curvature curvature, 
   return multigrid::MultigridSolver(p.topology, p.pins).solve(p.inertia, p.x, curvature, p.b, tolerance, u);
 }
 
-// sizes around 16 lanes and half of that, odd and even rows, and one cloth with several levels
+// sizes around 16 lanes and around half of that, odd and even numbers of rows, and one cloth with several levels
 constexpr std::pair<int, int> sizes[] = {{12, 20}, {13, 31}, {20, 32}, {33, 33},
                                          {15, 48}, {40, 64}, {31, 65}, {3, 100}};
 
@@ -98,15 +98,16 @@ TEST(Multigrid, SolvesWhatAFactorisationSolves) {
       const Points wanted = p.by_factorisation(Curvature::clamped);
       Points u;
       EXPECT_TRUE(solve(p, isa, Curvature::clamped, 1e-12, u).converged);
-      // |u - A^-1 b| <= |A^-1| |b - A u|, and A is at least the smallest inertia, 1 N/m. A factor of ten covers the
-      // recurrence.
+      // |u - A^-1 b| <= |A^-1| |b - A u|, and the eigenvalues of A are at least the smallest inertia, 1 N/m. A factor
+      // of ten allows for the recurrence of the residual.
       EXPECT_LE((u - wanted).norm(), 1e-11 * p.b.norm());
       for (const int pin : p.pins) EXPECT_EQ(u.col(pin), Vec3::Zero());
     }
 }
 
 TEST(Multigrid, TakesCurvatureAsItIs) {
-  // Springs are up to a tenth too long for their positions: some are compressed, and inertia keeps the matrix definite.
+  // Rest lengths exceed the distances of the ends by up to 10 %, so that some springs are compressed; inertia keeps the
+  // matrix definite.
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Problem p(seed, 20, 40, 0.05, 20);
     p.inertia += 100;
@@ -120,7 +121,7 @@ TEST(Multigrid, TakesCurvatureAsItIs) {
 
 TEST(Multigrid, StopsAtNegativeCurvature) {
   Problem p(7, 20, 40, 0.01, 400);
-  p.x *= 0.5;  // all springs at half their length, without lateral support
+  p.x *= 0.5;  // all springs have half of their rest length, and no lateral support
   Points u;
   const CgResult result = solve(p, simd::active_instruction_set(), Curvature::exact, 1e-12, u);
   EXPECT_TRUE(result.negative_curvature);
@@ -160,7 +161,7 @@ Points cycle(multigrid::VCycle& matrix, const Points& r) {
 
 TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
   for (const auto& [rows, columns] : sizes)
-    for (const double heavier : {1., 30., 1e3}) {  // levels used: all; fewer; only the finest
+    for (const double heavier : {1., 30., 1e3}) {  // uses all levels, fewer levels, or only the finest one
       SCOPED_TRACE(fmt::format("{} x {}, {} times as heavy", rows, columns, heavier));
       const Problem p(11, rows, columns), other(12, rows, columns);
       multigrid::VCycle matrix(p.topology, p.pins);
@@ -170,7 +171,7 @@ TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
       const Points z = cycle(matrix, p.b), w = cycle(matrix, second);
       EXPECT_GT(dot(p.b, z), 0);
       EXPECT_GT(dot(second, w), 0);
-      // single precision, with a few hundred consecutive roundings
+      // computed in single precision, with a few hundred consecutive rounding errors
       const double scale = std::sqrt(dot(p.b, z) * dot(second, w));
       EXPECT_NEAR(dot(second, z), dot(p.b, w), 300 * std::numeric_limits<float>::epsilon() * scale);
     }
@@ -188,7 +189,7 @@ TEST(Multigrid, SameBitsOnEveryAvx) {
   }
 }
 
-/// Iterations of one linear step of a hanging cloth.
+/// Number of iterations for one linear step of a hanging cloth.
 int iterations(int side, double rate, bool plain) {
   const Scene scene = hanging_cloth(side);
   Recorder recorder;
@@ -203,8 +204,8 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
   for (const double rate : {60.0, 240.0}) {
     const int small = iterations(24, rate, false), large = iterations(96, rate, false);
     const int small_plain = iterations(24, rate, true), large_plain = iterations(96, rate, true);
-    // Four times as wide. Block-diagonal preconditioning alone needs about four times as many iterations, the square
-    // root of the ratio of the condition numbers.
+    // The large cloth is four times as wide. Block-diagonal preconditioning alone needs about four times as many
+    // iterations, which is the square root of the ratio of the condition numbers.
     EXPECT_LT(large, 2 * small) << rate;
     EXPECT_GT(large_plain, 3 * small_plain) << rate;
     EXPECT_LT(large, 60) << rate;
@@ -213,15 +214,15 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
 
 TEST(ImplicitCloth, StepsAreThoseOfTheListOfPairs) {
   Scene scene = hanging_cloth(24);
-  // At the shortest steps inertia dominates, and relaxation alone is the preconditioner.
+  // At the shortest steps inertia dominates, and relaxation alone serves as the preconditioner.
   for (const double h : {1 / 60., 1 / 240., 1 / 1000., 1 / 4000.}) {
     System f(scene.model), g(scene.model);
     ImplicitStep fast(f), plain(g, true);
     State s = scene.start;
     for (int i = 0; i < 12; ++i) {
       const State a = fast.solve(s, h), b = plain.solve(s, h);
-      // Both leave forces of 1e-12 of the largest (or round-off). The softest mode has the stiffness of inertia, m /
-      // h^2.
+      // Both solutions leave forces of 1e-12 of the largest force (or round-off). The stiffness of the softest mode
+      // comes from inertia and is m / h^2.
       const double force = std::max(fast.potential().force_scale() * 1e-12, fast.potential().force_rounding());
       const double inertia = 0.25 / (24 * 24) / (h * h);
       EXPECT_LE(largest_column(a.x - b.x), 2 * force / inertia * 24) << i;
@@ -248,9 +249,9 @@ TEST(ImplicitCloth, BeyondSinglePrecisionItIsSolvedAllTheSame) {
     p.gradient(Points::Zero(3, u.cols()), g);
     p.linearise(Points::Zero(3, u.cols()), Curvature::clamped);
     p.apply(u, product);
-    // The solve stops at 1e-12 of the right-hand side. Components of u differ by up to the condition number, so that A
-    // u itself has a rounding error of eps |A| |u|, with |A| <= inertia + 2 (sum of a particle's springs, 4 to each
-    // side).
+    // The solver stops at 1e-12 of the right-hand side. Components of u may differ by a factor up to the condition
+    // number, so that A u itself has a rounding error of eps |A| |u|, where |A| <= inertia + 2 (sum of the stiffnesses
+    // of a particle's springs, 4 of each family in each direction).
     const double inertia = p.inertia().maxCoeff(), size = inertia + 2 * 8 * 620 * stiffer;
     EXPECT_LE((product + g).norm(), 1e-11 * g.norm() + 10 * eps * size * u.norm()) << stiffer;
     EXPECT_GT(u.norm(), 0);

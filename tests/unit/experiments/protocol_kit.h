@@ -1,4 +1,4 @@
-// An adapter with deliberate defects, and the findings of the conformance kit.
+// An adapter with deliberate defects, and what the conformance kit reports about it.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@ namespace crosscheck::testing_tools {
 
 class ProtocolKit : public InFolder {
  protected:
-  /// Runs the kit on the shipped example, wrapped in a script that corrupts the scene or the answer.
+  /// Runs the kit on the shipped example. A script around the example corrupts the scene or the answer.
   ConformanceReport spoiled(const std::string& before, const std::string& after = "") const {
     return try_adapter("exec:" + script("adapter", before + CROSSCHECK_EXAMPLE " \"$1\" \"$2\" || exit $?\n" + after));
   }

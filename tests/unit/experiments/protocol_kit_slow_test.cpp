@@ -1,4 +1,4 @@
-// The conformance kit detects each seeded defect of an adapter, and reports nothing else.
+// The conformance kit detects each seeded defect of an adapter, and reports no other defects.
 
 #include "tests/unit/experiments/protocol_kit.h"
 
@@ -57,7 +57,7 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
       {"is at other times",
        rewrite + "'s/\"steps_per_sample\":[0-9]+/\"steps_per_sample\":37/' \"$1\"\n",
        "",
-       {"sample times", "speeds", "verdict"},  // verdicts need a sample per step
+       {"sample times", "speeds", "verdict"},  // verdicts also change, because they need a sample per step
        {"certificate"},
        "write frames at run.times"},
       {"leaves the pins where they were",
