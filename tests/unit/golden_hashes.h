@@ -29,7 +29,7 @@ inline GoldenHashes golden_hashes() {
 }
 
 inline constexpr int golden_steps = 1000;
-/// s; at least golden_steps steps, and a multiple of the sampling interval.
+/// Duration (s) of at least golden_steps steps, and a multiple of the sampling interval.
 inline double golden_duration(const Scene& scene) {
   const double interval = scene.duration / scene.samples;
   return std::max(scene.duration, std::ceil(golden_steps * scene.step / interval) * interval);

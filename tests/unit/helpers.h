@@ -22,7 +22,7 @@ namespace crosscheck::testing_tools {
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Identical with every standard library.
+/// Random numbers that are the same with every standard library.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -57,7 +57,7 @@ inline bool takes(const Stepper& s, const Scene& scene) {
   return (!scene.model.first_order() || s.first_order) && (!scene.model.find<Constraints>() || s.hard_constraints);
 }
 
-/// The mandatory header of a scene file, then `more`, which contains particles and terms.
+/// The mandatory header of a scene file, followed by `more`, which contains particles and terms.
 inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return fmt::format(
              "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = {}\nstep = {}\nwindow = {}\n"
@@ -80,7 +80,7 @@ inline std::vector<std::string> shipped_scene_names() {
   return names;
 }
 
-/// Message of the InputError that the text causes, or "" if the scene is valid.
+/// Message of the InputError that the text of a scene causes, or "" if the scene is valid.
 inline std::string message_of(const std::string& text) {
   try {
     parse_scene(text, "bad.toml");
@@ -92,8 +92,8 @@ inline std::string message_of(const std::string& text) {
 
 inline constexpr auto gravity_text = "[gravity]\nacceleration = [0, -9.81, 0]\n";
 
-/// A 5 x 5 cloth held along its moving upper edge, in gusts, with drag. It has every smooth ingredient except those of
-/// small_cloth_in_air. `of_grid`: more lines for the [grid] table.
+/// A cloth of 5 x 5 particles whose upper edge is pinned and moves, in gusts, with drag. It has every smooth ingredient
+/// except those of small_cloth_in_air. `of_grid`: more lines for the [grid] table.
 inline Scene small_cloth(const std::string& of_grid = "") {
   return small_scene("[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -0.9, 0.4]\n" + of_grid +
                      std::string("mass = 0.25\n[grid.stiffness]\nstructural = 40\nshear = 30\nbend = 20\n"
@@ -104,7 +104,7 @@ inline Scene small_cloth(const std::string& of_grid = "") {
                      gravity_text);
 }
 
-/// As small_cloth, with bending and dashpots, and with streaming air instead of wind.
+/// The scene small_cloth with bending and dashpots, and with streaming air instead of wind.
 inline Scene small_cloth_in_air() {
   Scene scene = small_cloth("bending = 0.1\n");
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
@@ -125,14 +125,14 @@ inline Scene with_drag(Scene scene, double gamma) {
   return scene;
 }
 
-/// Runs mysim with Coulomb contact and without a divergence monitor.
+/// Runs a rule of mysim with Coulomb contact and without a divergence monitor.
 inline Trajectory trajectory_of(const Stepper& s, const Scene& scene, const Run& run) {
   Recorder recorder;
   simulate(s, ContactRule::coulomb, scene, run, recorder);
   return recorder.trajectory;
 }
 
-/// Both must have the same samples. Ignores samples after `until` (s). Result in m.
+/// Largest RMS distance (m) over time. Both runs must have the same samples. Ignores samples after `until` (s).
 inline double sup_rms(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
   EXPECT_EQ(a.frames(), b.frames());
   double largest = 0;
@@ -166,7 +166,7 @@ inline double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
 
 inline bool identical(const Trajectory& a, const Trajectory& b) { return a.t == b.t && a.x == b.x && a.v == b.v; }
 
-/// Checks on messages; failures show the actual text.
+/// Succeeds if the text contains `part`; failures show the actual text.
 inline ::testing::AssertionResult contains(const std::string& text, const std::string& part) {
   if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "'" << part << "' is not in '" << text << "'";
@@ -176,7 +176,7 @@ inline ::testing::AssertionResult begins(const std::string& text, const std::str
   return ::testing::AssertionFailure() << "'" << text << "' does not begin with '" << part << "'";
 }
 
-/// Succeeds if the sentence contains these numbers, names and key words in this order. The words in between are free.
+/// Succeeds if the sentence contains these numbers, names and key words in this order, with any words in between.
 inline ::testing::AssertionResult says(const std::string& sentence, std::initializer_list<std::string_view> parts) {
   size_t at = 0;
   for (const std::string_view part : parts) {
@@ -187,7 +187,7 @@ inline ::testing::AssertionResult says(const std::string& sentence, std::initial
   return ::testing::AssertionSuccess();
 }
 
-/// Order of convergence from the errors with a step and half of it.
+/// Order of convergence, computed from the errors at a step and at half that step.
 inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
 
 /// Message of the InputError that f throws, or "".
@@ -201,7 +201,8 @@ std::string refusal_of(F f) {
   return "";
 }
 
-/// First step at which a run, which is not stopped, is more than ten times as fast as `speed`, by central differences.
+/// First step at which a run that is not stopped is more than ten times as fast as `speed`. Speeds are central
+/// differences.
 inline long step_of_leaving(const Scene& scene, const crosscheck::Run& run, const char* rule, double speed) {
   struct Free : Observer {
     explicit Free(double fastest) : most(fastest) {}

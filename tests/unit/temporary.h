@@ -1,4 +1,4 @@
-// A temporary folder for each test, and programs in it.
+// A temporary folder for each test, and scripts in this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Sets a variable of this process's environment and restores it at the end of the scope.
+/// Sets a variable of this process's environment, and restores it at the end of the scope.
 class SetVariable {
  public:
   SetVariable(const char* name, const char* value) : name_(name) {
@@ -34,7 +34,7 @@ class SetVariable {
   std::optional<std::string> was_;
 };
 
-/// A fresh folder, removed after the test.
+/// Test with a new folder, which is removed after the test.
 class InFolder : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -49,7 +49,7 @@ class InFolder : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
   }
-  /// An executable shell script. $1 is scene.json, $2 the folder for results.
+  /// Writes an executable shell script. Its $1 is scene.json, and its $2 is the folder for results.
   std::string script(const std::string& name, const std::string& text) const {
     const auto file = write(name, "#!/bin/sh\n" + text);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);

@@ -224,7 +224,7 @@ TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
     x = r * s + v * c * t, y = r * c - v * s * t - g * t * t / 2;
   }
   const Leaving exact = leaving_by_theory();
-  EXPECT_NEAR(exact.angle, std::atan2(x, y) * 57.29577951308232, 2e-4);  // 1e-6 s at 150 degrees per second
+  EXPECT_NEAR(exact.angle, std::atan2(x, y) * 57.29577951308232, 2e-4);  // 1e-6 s times 150 degrees per second
   EXPECT_NEAR(exact.speed, std::hypot(v * c, v * s + g * t), 2e-5);
   EXPECT_GT(exact.angle, 48.19);
   Outcome out;

@@ -52,7 +52,7 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
   EXPECT_LT(a.oscillation, 1e-6);      // bound: square root of the rounding error of r^2
   EXPECT_NEAR(a.growth, 1, 1e-12);
   EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J of 2 K over 100 s
-  EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // slope of a fitted sine: at most 6 A / (omega T^2)
+  EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // slope fitted to a sine: at most 6 A / (omega T^2)
   EXPECT_NEAR(b.oscillation, 0.5 / std::sqrt(2), 0.01);
   EXPECT_LT(b.growth, 0.01);
   EXPECT_NEAR(b.worst, 0.5, 0.01);
@@ -222,7 +222,7 @@ TEST(LongEnergy, OfBulletsExplicitWorldIsSymplecticEulers) {
     const ResidualStatistics ours = residual_statistics(rows[0]);
     for (size_t i = 0; i < rows[0].size(); ++i)
       EXPECT_NEAR(rows[0][i].balance(), rows[1][i].balance(), 1e-12 * ours.energy_scale * 500);
-    EXPECT_GT(ours.worst, 1e-4 * ours.energy_scale);  // the residual of a first-order rule is well above the difference
+    EXPECT_GT(ours.worst, 1e-4 * ours.energy_scale);  // the residual of the first-order rule exceeds the difference
   }
 }
 

@@ -297,7 +297,7 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
 }
 
 TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
-  EXPECT_TRUE(Ledger(scene_.model, ContactLoss::sampled).contact_inferred());  // drag between samples is an estimate
+  EXPECT_TRUE(Ledger(scene_.model, ContactLoss::sampled).contact_inferred());  // drag between samples is estimated
   EXPECT_FALSE(Ledger(without_drag(scene_).model, ContactLoss::sampled).contact_inferred());
   EXPECT_FALSE(Ledger(scene_.model, ContactLoss::inferred).contact_inferred());
 }
@@ -305,7 +305,7 @@ TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
 TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
   const std::string plain = script("engine", ""), odd = script("engine+n=2", "");
   EXPECT_EQ(find_program(plain).path, plain);
-  EXPECT_EQ(find_program(odd).path, odd);  // a file with this full name, including the "+", exists
+  EXPECT_EQ(find_program(odd).path, odd);  // a file with the full name exists
   EXPECT_TRUE(find_program(odd).options.empty());
   const Program more = find_program(odd + "+n=3+timeout=7.5+path=/a/b");
   EXPECT_EQ(more.path, odd);

@@ -37,7 +37,7 @@ TEST(Elastica, HasItsLimits) {
     integral += ds;
     drop += std::sin(end - u * u) * ds;
   }
-  EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule: (top / n)^2 times the second derivative
+  EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule's error: (top / n)^2 times the second derivative
   // moments about the clamp: B theta'(0) = P x(L), where theta' is estimated from the angle over the first thousandth
   EXPECT_NEAR(loaded.at(1e-3).angle / 1e-3, 2 * loaded.tip().x, 2e-3);
   // the drop is the integral of sin theta, with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl.

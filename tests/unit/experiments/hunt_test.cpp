@@ -48,7 +48,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
   for (const Relation& relation : relations()) EXPECT_TRUE(asked.contains(std::string(relation.name))) << relation.name;
 }
 
-/// A net of many particles; the tests reduce it for properties that depend on gravity and one shear spring only.
+/// A net of many particles. Tests reduce it while a property holds that depends only on gravity and one shear spring.
 SceneDraft large_draft() {
   for (long index = 0;; index += drawn_kinds) {
     SceneDraft draft = draw(5, index);
@@ -78,7 +78,7 @@ TEST(Shrink, FindsTheSmallestThatStillShowsIt) {
 }
 
 TEST(Shrink, KeepsWhatTogetherIsNeeded) {
-  // The property holds for a sum of masses that needs at least three particles, and for a duration that can be halved
+  // The property requires a sum of masses that two particles of 0.4 kg do not reach, and a duration that can be halved
   // only once.
   SceneDraft draft = large_draft();
   for (auto& p : draft.particles) p.mass = 0.4;

@@ -225,7 +225,7 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       ++accepted;
       // Adaptive methods follow their tolerance, and their mean step is at most the duration.
       EXPECT_LE(out.step, out.tolerance > 0 ? 0.05 : scene.step * (1 + 1e-9));
-      if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth gives a row with its verdict
+      if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth fails with a verdict in its row
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());

@@ -1,4 +1,4 @@
-// The conformance kit reports nothing for a complete adapter, and recognises programs that are no adapters.
+// The conformance kit reports nothing missing for a complete adapter, and recognises programs that are not adapters.
 
 #include "tests/unit/experiments/protocol_kit.h"
 
@@ -55,7 +55,7 @@ TEST_F(ProtocolKit, ProgramsThatAreNoAdaptersAreTold) {
 }
 
 TEST_F(ProtocolKit, NamesTheIngredientsThatAreMissingAlone) {
-  // an engine with spheres that drops one or two ingredients of its scene
+  // an engine that supports spheres but ignores one or two ingredients of its scene
   const auto inert = [&](const std::string& edits) {
     const std::string program =
         script("adapter", "sed -i -E " + edits + " \"$1\"\n" CROSSCHECK_BULLET32_PROGRAM " \"$1\" \"$2\"\n");

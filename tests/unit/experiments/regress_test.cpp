@@ -60,7 +60,7 @@ TEST(Baselines, ThatAreLinksOrPipesAreNotRead) {
   EXPECT_THROW(read_shape(folder.path, "chain", 4), InputError);
 }
 
-/// Wrong perturbed runs could make a tolerance so large that nothing fails.
+/// Checks the size of tolerances, because wrong perturbed runs could make a tolerance so large that nothing fails.
 TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
   long all = 0, unpredictable = 0;
   for (const std::string_view name : shipped_scenes()) {
@@ -76,15 +76,15 @@ TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
       ++all;
       const bool beyond = e.what.derivation.ends_with("beyond prediction");
       unpredictable += beyond;
-      // explicit Euler gains energy and amplifies perturbations more than the scene does
+      // explicit Euler gains energy, and therefore amplifies perturbations more than the scene does
       if (beyond && (!e.without.empty() || e.method == "mysim/explicit-euler")) continue;
-      if (e.method.starts_with("bullet32/")) continue;  // large relative rounding of quantities near zero
-      if (e.what.quantity.name == time_of_failure) {    // known to within a sample; with a ball, to within a few
+      if (e.method.starts_with("bullet32/")) continue;  // quantities near zero have large relative rounding errors
+      if (e.what.quantity.name == time_of_failure) {  // known to within a sample; with a ball, to within a few samples
         EXPECT_LE(e.what.tolerance, 8 * scene.duration / scene.samples) << name << ", " << e.method;
         continue;
       }
-      // A scene without one ingredient may be less predictable than its window states (the flag without air buckles). A
-      // floor of 1e-8 covers quantities that are zero up to rounding.
+      // If an ingredient is removed, a scene may be less predictable than its window states (the flag without air
+      // buckles). The floor of 1e-8 allows for quantities that are zero up to rounding.
       EXPECT_LE(e.what.tolerance, std::max(1e-8, (e.without.empty() ? 0.02 : 0.1) * largest[key(e)]))
           << name << ", " << e.method << " without '" << e.without << "', " << e.what.quantity.name;
     }
@@ -255,7 +255,7 @@ TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
   for (const char* scene : {"spring", "chain"})
     for (const char* quantity : {"sag", "period"}) add(scene, "mysim/new", quantity, Status::added);
   add("chain", "mysim/new", "energy", Status::not_finite);
-  add("chain", "mysim/rk4", "sag", Status::added);  // known on another scene, new on this one
+  add("chain", "mysim/rk4", "sag", Status::added);  // known in another scene, new in this one
   const std::vector<NewMethod> all = new_methods(rows);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].method, "mysim/new");
@@ -329,7 +329,7 @@ TEST(Quantities, OfARunThatSlidesOffABallTheAngleIsThatOfTheClosedForm) {
   const CaseRun case_run = run_case(q);
   const Quantities angle = taken(leaving_angle, q, case_run);
   ASSERT_EQ(angle.size(), 1u);
-  // Contact ends at 53.1 degrees, and the gap reaches 1 mm somewhat later.
+  // Contact ends at 53.1 degrees, and the gap reaches 1 mm a little later.
   EXPECT_GT(angle[0].value, 53.1);
   EXPECT_LT(angle[0].value, 60);
   EXPECT_TRUE(taken(leaving_angle, test_case("bounce"), run_case(test_case("bounce"))).empty());
@@ -363,7 +363,7 @@ TEST(Quantities, SettingsAreWhatTheEngineTells) {
   EXPECT_TRUE(settings_of("mysim/leapfrog").empty());
 }
 
-/// The assumed rounding of a step must cover the difference between two implementations of the same rule.
+/// The rounding error assumed for a step must cover the difference between two implementations of the same rule.
 TEST(Tolerances, HoldBetweenTwoEnginesOfOneRule) {
   for (const char* scene : {"projectile", "chain", "pendulum", "spring"}) {
     const Case ours = test_case(scene, "symplectic-euler"), theirs = test_case(scene, "bullet/deformable-explicit");

@@ -1,4 +1,4 @@
-// Shipped and random scenes: the table, the fingerprint, and required information.
+// Shipped and random scenes: the table of scenes, the fingerprint, and required information.
 
 #include <map>
 
@@ -36,7 +36,7 @@ TEST(Grid, HasTheCountedSpringsTrianglesAndMass) {
     EXPECT_EQ(count[Family::shear], 2 * (nu - 1) * (nv - 1));
     EXPECT_EQ(count[Family::bend], (nu - 2) * nv + nu * (nv - 2));
     EXPECT_EQ(static_cast<int>(s.triangles.size()), 2 * (nu - 1) * (nv - 1));
-    EXPECT_NEAR(s.model.particles.mass.sum(), 1.5, nu * nv * eps * 1.5);  // one rounding per addition
+    EXPECT_NEAR(s.model.particles.mass.sum(), 1.5, nu * nv * eps * 1.5);  // one rounding error per addition
     EXPECT_EQ(s.start.x.col(0), Vec3(1, 2, 3));
     EXPECT_EQ(s.start.x.col(nu - 1), Vec3(3, 2, 3));
     EXPECT_TRUE(s.start.x.col(nu * nv - 1).isApprox(Vec3(3, 2.3, 7), 4 * eps));
@@ -55,7 +55,7 @@ TEST(Grid, SpringsJoinTheRightNeighboursAtTheirDistance) {
     EXPECT_TRUE(right) << spring.a << " " << spring.b;
     EXPECT_EQ(spring.k, spring.family == Family::structural ? 30 : spring.family == Family::shear ? 20 : 10);
     const double expected = std::hypot(di * 2.0 / (nu - 1), dj * std::hypot(0.3, 4) / (nv - 1));
-    EXPECT_NEAR(spring.rest, expected, 32 * eps);  // differences of coordinates up to 7 m
+    EXPECT_NEAR(spring.rest, expected, 32 * eps);  // rounding of differences between coordinates of up to 7 m
     EXPECT_EQ(++seen[std::minmax(spring.a, spring.b)], 1) << "duplicate pair";
   }
 }
@@ -75,7 +75,7 @@ TEST(Grid, TrianglesCoverTheClothOnceAndFaceOneWay) {
     absolute += part.norm();
   }
   const double whole = Vec3(2, 0, 0).cross(Vec3(0, 0.3, 4)).norm();
-  EXPECT_NEAR(area.norm(), whole, 1e3 * eps);  // 40 triangles, coordinates up to 7 m
+  EXPECT_NEAR(area.norm(), whole, 1e3 * eps);  // rounding of 40 triangles with coordinates of up to 7 m
   EXPECT_NEAR(absolute, whole, 1e3 * eps);
 }
 
@@ -212,7 +212,7 @@ TEST(RandomScenes, NetworksHoldTogetherAndArePredictable) {
     EXPECT_GE(m.particles.size(), 3);
     EXPECT_LE(m.particles.size(), 30);
     EXPECT_FALSE(m.find<Spheres>());
-    // condition on a window (mysim/scene/scene.h); only every fourth scene, to save time
+    // a condition on windows (mysim/scene/scene.h); tests every fourth scene only, to save time
     if (seed % 4 == 1) {
       EXPECT_LT(perturbation_growth(find_method("symplectic-euler"), s, s.step, s.window), 1e3);
     }

@@ -1,5 +1,5 @@
-// Texts of scene files are true: every number in them is one of the scene's values or is computed here, and statements
-// about growth are measured.
+// The texts of scene files are true: every number in them is one of the scene's values or is computed here, and
+// statements about growth are confirmed by measurements.
 
 #include <numbers>
 #include <regex>
@@ -24,7 +24,7 @@ constexpr double degree = std::numbers::pi / 180;
 double omega_of(const Scene& s) { return highest_frequency(s.model, s.start); }
 double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // leapfrog's limit is 2 / omega
 
-/// m, of the closed-form solution above its start.
+/// Height (m) to which the closed-form solution rises above its start.
 double rise_of(const Scene& s) {
   const auto exact = exact_solution(s);
   double highest = 0;
@@ -32,7 +32,7 @@ double rise_of(const Scene& s) {
   return highest - s.start.x(1, 0);
 }
 
-/// Degrees from the top at which the closed-form solution leaves the ball.
+/// Angle (degrees from the top) at which the closed-form solution leaves the ball.
 double leaving_angle(const Scene& s) {
   const auto exact = exact_solution(s);
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
@@ -62,18 +62,18 @@ double swing_of(const Scene& s) {
   return 2 * (passages.back() - passages.front()) / static_cast<double>(passages.size() - 1);
 }
 
-/// Growth if only the two upper corners of the cloth are pinned.
+/// Growth of a perturbation if only the two upper corners of the cloth are pinned.
 double growth_at_two_corners(const Scene& s) {
   TomlDocument file(s.source, s.name);
   const std::vector<int>& pins = s.model.particles.pins;
   file.set("pins.particles", std::vector<int>{pins.front(), pins.back()});
   Scene corners = parse_scene(file.text(), s.name);
-  // the step of an animation would blow up under the rule used for the measurement
+  // the measurement uses another rule, under which the step of an animation would blow up
   corners.step = std::min(corners.step, 1 / omega_of(corners));
   return perturbation_growth(find_method("symplectic-euler"), corners, corners.step, corners.duration);
 }
 
-/// m/s^2, of the first sphere.
+/// Largest acceleration of the first sphere, m/s^2.
 double largest_acceleration(const Scene& s) {
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
   const double dt = 1e-3;
@@ -90,12 +90,12 @@ double first_touch(const Scene& s) {
   return *first_contact(s, run_and_record("leapfrog", s, run).trajectory);
 }
 
-/// Ratio of the scene's step to the longest stable step of a rule.
+/// Ratio of the scene's step to the longest stable step of the given rule.
 double times_shorter(const char* rule, const Scene& s) {
   return s.step / stepper(rule).limit(omega_of(s), *uniform_drag_rate(s.model));
 }
 
-/// A number that the text of a scene claims: the words around it, with {} for the number, and its true value.
+/// A number claimed in the text of a scene: the words around it, with {} in place of the number, and its true value.
 struct ClaimedNumber {
   const char* scene;
   const char* words;
@@ -121,7 +121,7 @@ const ClaimedNumber claims[] = {
      [](const Scene& s) { return s.model.find<Springs>()->list[0].rest + s.start.x(1, 1) - s.start.x(1, 0); }},
     {"spring", "h omega = {}", [](const Scene& s) { return s.step * omega_of(s); }},
     {"normal-modes", "start with {} and 5 mm",
-     // subtracting the sines of the modes from the initial displacements leaves zero
+     // the difference between the initial displacements and the sines of the modes is zero
      [](const Scene& s) {
        double first = 0, left = 0;
        const double apart = (s.start.x(0, 9) - s.start.x(0, 0)) / 9;
@@ -201,11 +201,11 @@ const ClaimedNumber claims[] = {
      }},
     {"cloth-wind", "varies by {} %",
      [](const Scene& s) { return 100 * s.model.find<Wind>()->acceleration.gusts->variation; }},
-    // a dimension of pictures that belongs to no scene
+    // size of a picture; this claim is made in several scenes
     {"", "a picture of {} pixels", [](const Scene&) { return 1000.; }},
 };
 
-/// A statement about growth in words.
+/// A statement that describes the growth of a perturbation in words.
 struct Grows {
   const char* scene;
   const char* words;
@@ -233,7 +233,8 @@ const std::vector<Scene>& all_scenes() {
   return scenes;
 }
 
-/// The words of a scene file: its text on parameters, and its comments, each preceded by its value.
+/// The words of a scene file: its text about parameters, and its comments, each preceded by the value to which it
+/// belongs.
 std::string words_of(const Scene& s) {
   std::string words = TomlTable::parse_text(s.source, s.name).text("parameters") + "\n";
   std::istringstream in(s.source);
@@ -266,7 +267,7 @@ double half_digit(const std::string& number) {
   return 0.5 * std::pow(10, static_cast<double>(number.size() - number.find_last_not_of('0') - 1));
 }
 
-/// Position and length of the claimed number in a text; nothing if the text does not contain the claim.
+/// Position and length of the claimed number in a text; nullopt if the text does not contain the claim.
 std::optional<std::pair<size_t, size_t>> place_of(const ClaimedNumber& t, const std::string& text) {
   const std::string words = t.words, before = words.substr(0, words.find("{}")),
                     after = words.substr(before.size() + 2);
@@ -305,7 +306,7 @@ TEST(SceneWords, NoNumberIsLeftUnchecked) {
       if (!*claim.scene || s.name == claim.scene)
         if (const auto place = place_of(claim, text)) text.replace(place->first, place->second, place->second, ' ');
     text = std::regex_replace(text, std::regex("([0-9]) 000"), "$01000");
-    // powers, units and parts of formulas
+    // removes powers, units and parts of formulas
     text = std::regex_replace(text, std::regex("\\^[0-9]|1/s|10 Hz|1000 pixels|2 / omega|2 m/s\\^2 at|1/ "), " ");
     std::vector<double> values = values_of(s);
     for (const char* of : {"cloth-hang"})
@@ -332,7 +333,7 @@ TEST(SceneWords, WhatGrowsGrowsAsIsSaid) {
     EXPECT_GE(growth, g.low) << g.scene << ": " << g.words;
     EXPECT_LE(growth, g.high) << g.scene << ": " << g.words;
   }
-  // no other file mentions growth in words
+  // no other text mentions growth in words
   for (const Scene& s : all_scenes()) {
     std::string text = words_of(s);
     for (const Grows& g : grows)

@@ -17,14 +17,14 @@ using namespace testing_tools;
 TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
   for (const auto& name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
-    const Stepper& s = stepper(scene.method);  // shipped scenes name one of mysim's methods
+    const Stepper& s = stepper(scene.method);  // the default method of a shipped scene is one of mysim's
     const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
     const crosscheck::Run run{scene.step, scene.window, samples};
     const Trajectory whole = trajectory_of(s, scene, run);
     for (const Ingredient& ingredient : ingredients_of(scene)) {
       SCOPED_TRACE(fmt::format("{} without {}", name, ingredient.name));
       const Scene less = without(scene, ingredient);
-      // A first-order scene cannot run without its only term, which counts as a change.
+      // A first-order scene cannot run without its only term, so the removal of this term counts as a change.
       if (scene.model.first_order() && !less.model.first_order()) continue;
       const double change = sup_rms(whole, trajectory_of(s, less, run));
       fmt::print("{:12} without {:18} {:.3g} m (tolerance {:.3g} m)\n", name, ingredient.name, change, scene.tolerance);
@@ -35,8 +35,8 @@ TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
 
 }  // namespace
 
-// Shipped scenes show their intended effects: jelly lands and rests, cloth is carried, rods keep their lengths, and
-// long steps fail as predicted by theory.
+// Shipped scenes show the intended effects: the jelly lands and comes to rest, the cloth is carried along, rods keep
+// their lengths, and long steps fail as predicted by theory.
 
 namespace {
 
@@ -56,7 +56,7 @@ TEST(Jelly, LandsWobblesAndRests) {
     const auto landed = first_contact(scene, t);
     ASSERT_TRUE(landed);
     EXPECT_NEAR(*landed, std::sqrt(2 * 0.2 / 9.81), 0.02 + 1e-3);  // a fall of 0.2 m, detected at the next sample
-    // It wobbles: after landing, its height above the ball changes direction several times.
+    // The jelly wobbles: after landing, its height above the ball changes direction several times.
     int turns = 0;
     double most = 0;
     std::vector<double> height;
@@ -66,7 +66,7 @@ TEST(Jelly, LandsWobblesAndRests) {
       most = std::max(most, kinetic(scene, t, i));
     }
     EXPECT_GE(turns, 4);
-    // It rests: residual motion is a millionth of the earlier motion, and nothing creeps.
+    // The jelly comes to rest: its kinetic energy is at most 1e-5 of the maximum, and nothing creeps.
     const int last = t.frames() - 1;
     EXPECT_LT(kinetic(scene, t, last), 1e-5 * most);
     EXPECT_LT(rms_distance(t.x[last], t.x[last - 5]), 1e-4);
@@ -86,7 +86,7 @@ TEST(ClothCarried, MovesWithItsSphereAndNotWithoutFriction) {
     double worst = 0;
     for (int i = 0; i < held.frames(); ++i)
       worst = std::max(worst, std::abs(centre_of_mass(scene, held.x[i]).x() - ball.centre_at(held.t[i]).x()));
-    // It lands while the ball starts to move, and slides by some millimetres until it rests on the ball.
+    // The cloth lands while the ball starts to move, and slides by some millimetres until it rests on the ball.
     EXPECT_LT(worst, 0.02);
     EXPECT_LT(*creep(scene, held.t.back(), held.x.back(), held.v.back()), 1e-3);  // m/s relative to the ball
     const Trajectory free = run_and_record(name, slippery, default_run(scene)).trajectory;
@@ -135,13 +135,13 @@ TEST(ClothCantilever, ComesToRestAsTheElastica) {
   for (const auto name : {"leapfrog", "implicit-euler"}) {
     const MethodRun a = run_and_record(name, scene, default_run(scene));
     ASSERT_EQ(a.outcome.verdict, Verdict::ok) << name;
-    // half a cell beyond the last particle, in its direction
+    // extrapolates half a cell beyond the last particle, in the direction of the last cell
     const Points& end = a.trajectory.x.back();
     const double drop = -1.5 * end(1, 12) + 0.5 * end(1, 11);
     fmt::print("{}: the tip is {:.4g} of the length below, the elastica's {:.4g}\n", name, drop / strip.length,
                truth / strip.length);
-    // Grid: order 2, 0.006 % at 64 cells (experiment fabric) is 0.17 % at 12. Stretch: half of w L over the 50 N/m of
-    // two rows per unit width.
+    // Errors of the drop. Grid, of order 2: 0.006 % at 64 cells (experiment fabric), which is 0.17 % at 12 cells.
+    // Stretch: half of w L divided by 50 N/m, the stiffness of two rows per unit width.
     EXPECT_NEAR(drop, truth, (0.0017 + strip.weight * strip.length / 2 / 50) * truth) << name;
     EXPECT_LT(rms_distance(end, a.trajectory.x[90]), scene.tolerance);
   }
@@ -158,7 +158,7 @@ TEST(ClothStudent, TheAssignmentsTwoRulesFailAndTheoryKnew) {
     EXPECT_EQ(out.verdict == Verdict::ok, predicted_stable) << in_words(out.verdict);
     EXPECT_EQ(predicted_stable, s.name != "explicit-euler" && s.name != "trapezoidal");
   }
-  // a step within the limit avoids the student's instability
+  // steps below the limit avoid the student's instability
   for (const auto name : {"explicit-euler", "trapezoidal"}) {
     const double limit = stepper(name).limit(omega, gamma);
     EXPECT_LT(limit, scene.step / 3);
@@ -177,7 +177,7 @@ TEST(ClothStiff, ExplicitRulesFailAtTheStepOfAnAnimationAndImplicitEulerHolds) {
   ASSERT_EQ(a.outcome.verdict, Verdict::ok);
   const auto truth = truth_of(scene, default_run(scene));
   ASSERT_TRUE(truth);
-  // Numerical damping of the swing: h omega^2 / 2 at the pendulum's 4 rad/s is 0.13 /s, compared with a drag of 4 /s.
+  // Numerical damping of the swing: h omega^2 / 2 is 0.13 /s at the pendulum's 4 rad/s, compared with a drag of 4 /s.
   EXPECT_LT(sup_rms(a.trajectory, truth->trajectory, scene.window), 0.03);
   EXPECT_EQ(run_and_record("implicit-euler+linear", scene, default_run(scene)).outcome.verdict, Verdict::ok);
 }
@@ -189,9 +189,9 @@ TEST(Flag, TurnsIntoTheWindAndStaysUp) {
   const Trajectory wind = run_and_record("leapfrog", scene, default_run(scene)).trajectory,
                    none = run_and_record("leapfrog", calm, default_run(scene)).trajectory;
   const Vec3 air = scene.model.find<Aerodynamics>()->velocity.mean, flown = centre_of_mass(scene, wind.x.back());
-  // aligned with the wind, up to the remaining swing after 3 s
+  // the flag is aligned with the wind, up to the remaining swing after 3 s
   EXPECT_NEAR(std::atan2(flown.z(), flown.x()), std::atan2(air.z(), air.x()), 0.1);
-  EXPECT_GT(flown.y(), -0.5);                                           // hanging straight down would be about -0.85
+  EXPECT_GT(flown.y(), -0.5);  // a flag that hangs straight down would be at about -0.85
   EXPECT_LT(std::abs(centre_of_mass(scene, none.x.back()).z()), 1e-3);  // no rotation without air
 }
 

@@ -1,4 +1,4 @@
-// Experiment `speed-accuracy`: statistics of times, Pareto fronts, the cheapest run, and the statements of its rows.
+// Experiment `speed-accuracy`: statistics of times, Pareto fronts, the cheapest run, and statements about its rows.
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/estimate.h"
@@ -17,8 +17,8 @@ namespace {
 using namespace testing_tools;
 
 TEST(Timing, MedianAndItsIntervalFollowTheOrderOfTheTimes) {
-  // The k-th smallest and largest of n times bound the median with 90 % confidence: k = 1 from n = 5, 2 from 8, 3 from
-  // 11, 4 from 13.
+  // The k-th smallest and the k-th largest of n times bound the median with 90 % confidence, where k = 1 from n = 5, 2
+  // from n = 8, 3 from n = 11, and 4 from n = 13.
   const std::vector<std::pair<int, int>> ranks = {{1, 1}, {3, 1}, {5, 1}, {7, 1}, {8, 2}, {10, 2}, {11, 3}, {13, 4}};
   for (const auto& [n, k] : ranks) {
     SCOPED_TRACE(n);
@@ -44,8 +44,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
   const std::vector<std::function<double()>> runs = {[&] { return order += 'a', 1.; },
                                                      [&] { return order += 'b', 0.4e-3; }};
   const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
-  // One warm-up run each. That of a takes 1 s, long enough to count. Then b runs three times per turn until it took 1
-  // ms, and a stops after two runs.
+  // Each run has one warm-up. The warm-up of `a` takes 1 s, which is long enough to count. Then `b` runs three times
+  // per turn until it has taken 1 ms, and `a` stops after two runs.
   EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);
@@ -53,7 +53,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
 }
 
 TEST(Timing, ARunThatTakesNoTimeEnds) {
-  // A program without a clock, or a refusal: each call is a process, and more calls would give no more information.
+  // The run stands for a program without a clock, or for a refusal. Each call would start a process, and more calls
+  // would give no more information.
   int calls = 0;
   const std::vector<std::function<double()>> runs = {[&] { return ++calls, 0.; }, [] { return 1.; }};
   const auto times = time_round_robin(runs, {.least = 5, .most = 7});
@@ -90,7 +91,7 @@ std::vector<WorkPrecisionPoint> tiny() {
 TEST(SpeedAccuracy, TheParetoLineOfAHandMadeCase) {
   std::vector<std::pair<double, double>> line;
   for (const WorkPrecisionPoint& p : pareto_line(tiny(), 0)) line.emplace_back(p.cost, *p.error);
-  // The failed run is cheapest and does not count. At equal cost the more accurate run counts.
+  // The failed run is the cheapest, but does not count. At equal cost, the more accurate run counts.
   EXPECT_EQ(line, (std::vector<std::pair<double, double>>{{2, 0.1}, {4, 0.01}, {8, 0.001}, {16, 0.0005}}));
 }
 
@@ -119,7 +120,7 @@ TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
   EXPECT_EQ(cheapest(points, 0.02, &MethodFamily::is_default_peer)->cost, 5);
   EXPECT_EQ(cheapest(points, 0.0199, &MethodFamily::is_default_peer)->cost, 16);
   EXPECT_EQ(cheapest(points, 1e-4), nullptr);
-  // mysim/d at 4.05 overlaps 4; bullet/b exceeds the bound
+  // the time of mysim/d, 4.05, overlaps with 4; bullet/b exceeds the bound
   EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
 }
 
@@ -160,8 +161,8 @@ TEST(StepSearch, FindsTheSameStepWithTheLadderAndWithout) {
   const Scene scene = load_scene("cloth-hang");
   const crosscheck::Run base = default_run(scene);
   const double interval = base.duration / base.samples, limit = 1.12e-3;
-  // rk4 is limited by accuracy at a higher cost than its rivals, leapfrog by stability; explicit Euler fails at every
-  // step
+  // rk4 is limited by accuracy, at a higher cost than its rivals; leapfrog is limited by stability; explicit Euler
+  // fails at every step
   const auto trial = [&](const Method& m, const Setting& s) -> std::optional<TriedRun> {
     const double evaluations = m.stepper->evaluations * base.duration / s.value;
     const bool fails = m.name == "mysim/leapfrog" ? s.value > limit : m.name == "mysim/explicit-euler";
@@ -220,7 +221,7 @@ TEST(SpeedAccuracy, LaddersHalveTheStep) {
   const auto limited = settings_of(find_method("leapfrog"), scene, run, true),
              unlimited = settings_of(find_method("implicit-euler"), scene, run, true),
              adaptive = settings_of(find_method("dopri5"), scene, run, false);
-  // Steps divide the sampling interval. At its limit of 2 / omega leapfrog fails, and one or two such runs suffice.
+  // Steps divide the sampling interval. Leapfrog fails above its limit of 2 / omega, where one or two runs suffice.
   const double limit = 2 / highest_frequency(scene.model, scene.start);
   const auto beyond = std::count_if(limited.begin(), limited.end(), [&](const Setting& s) { return s.value > limit; });
   EXPECT_GE(limited.front().value, std::min(limit, 64e-3 * 0.9));
@@ -261,7 +262,7 @@ TEST(SpeedAccuracy, OfLongRunsTheFirstPartIsTimed) {
   const TimedPart adaptive = part_of(find_method("dopri5"), cloth, run, tolerance, true);
   EXPECT_LT(adaptive.share, 0.7);
   EXPECT_NEAR(adaptive.run.duration / adaptive.run.samples, run.duration / run.samples, 1e-12);  // whole intervals
-  // scenes with contact and external programs are timed over the whole run
+  // for scenes with contact and external programs, the whole run is timed
   EXPECT_EQ(part_of(leapfrog, ball, {1e-7, 1, 10}, {false, 1e-7}, true).share, 1);
   Method outside = leapfrog;
   outside.fingerprint = "a program";
@@ -295,7 +296,7 @@ TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
 TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   TableSet tables;
   Table t = table_of<SpeedAccuracyRow>();
-  // motion 1 m, error bar 2 mm; errors of 7 and 9 mm at 20 and 10 evaluations
+  // the motion is 1 m, the error bar 2 mm, and the errors are 7 and 9 mm at 20 and 10 evaluations
   for (const auto& [step, evaluations, error] : {std::tuple{0.1, 10l, 9e-3}, std::tuple{0.05, 20l, 7e-3}})
     add(t, SpeedAccuracyRow{.scene = "s",
                             .method = "mysim/a",
@@ -357,7 +358,7 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
   EXPECT_NEAR(slope(coarse, fine), 2, 0.2);
   EXPECT_NEAR(std::get<double>(cell(once, "mysim/leapfrog", 4, "distance to own finest")) / fine, 1, 0.1);
 
-  // Bullet implements symplectic Euler, of order 1, so that leapfrog needs fewer evaluations for the same error.
+  // Bullet implements symplectic Euler, which has order 1, so that leapfrog needs fewer evaluations for the same error.
   const Table& best = *once.table("speed-accuracy-cheapest");
   ASSERT_EQ(best.rows.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<std::string>(best.at(i, "measure")), "error");
@@ -369,7 +370,7 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
 TEST(SpeedAccuracy, FirstOrderScenesAreAnsweredByWhoTakesThem) {
   const TableSet tables = rows_of(load_scene("circle"), "rk4,leapfrog,explicit-euler,dopri5");
   auto of_rk4 = [&](int i, const char* column) { return std::get<double>(cell(tables, "mysim/rk4", i, column)); };
-  // Order 4. Steps divide the sampling interval, so that they are not exactly halved.
+  // rk4 has order 4. Steps divide the sampling interval, so that they are not exactly halved.
   EXPECT_NEAR(std::log(of_rk4(2, "largest error") / of_rk4(3, "largest error")) /
                   std::log(of_rk4(2, "step") / of_rk4(3, "step")),
               4, 0.1);
@@ -391,8 +392,8 @@ TEST(SpeedAccuracy, WhereNothingMovesNothingIsCompared) {
 std::string twice(const std::string& text) { return text + text; }
 
 TEST(SpeedAccuracy, FromTheContactRulesAnswerThereAreDifferencesOnly) {
-  // A particle slides over a moving ball that is listed twice. The second route does not support two spheres, and the
-  // limit of the in-house rule alone does not count as truth.
+  // A particle slides over a moving ball that is listed twice. The second solution does not support two spheres, and
+  // the limit of mysim's contact rule alone does not count as truth.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 1.02, 0]\nmass = 1\nvelocity = [1, 0, 0]\n" +
       twice("[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.02\nfriction = 0.2\n[sphere.motion]\namplitude = "
@@ -417,7 +418,7 @@ TEST(SpeedAccuracy, TimesAreScaledToTheWholeRun) {
   const long evaluations = std::get<long>(cell(tables, "mysim/leapfrog", 3, "evaluations"));
   TableSet timed;
   timed.add(*tables.table("speed-accuracy"));
-  // a tenth of the run took 2 s
+  // a tenth of the run was timed and took 2 s
   Table t = table_of<SpeedAccuracyTimingRow>();
   add(t, SpeedAccuracyTimingRow{.scene = "spring",
                                 .method = "mysim/leapfrog",

@@ -1,4 +1,4 @@
-// The DIA and COO kernels for general springs, compared with the plain edge loop on every instruction set.
+// The DIA and COO kernels for general springs, compared with the plain loop over springs, on every instruction set.
 
 #include <cstdlib>
 #include <set>
@@ -20,12 +20,12 @@ struct SpringGraph {
   Points x;
 };
 
-/// The plain loop is too expensive to get any spring; DIA is either free or too expensive.
+/// Costs with which the plain loop is so expensive that it gets no springs, and DIA is either free or too expensive.
 constexpr Costs into_dia{.coefficient_row = 0, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
 constexpr Costs into_coo{
     .coefficient_row = 1e9, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
 
-/// SpringKernel with a given instruction set and other costs.
+/// Like SpringKernel, but with a given instruction set and given costs.
 struct PartitionedSprings {
   spring_graph::SpringPartition partition;
   spring_graph::Kernels kernels;
@@ -63,7 +63,8 @@ SpringGraph random_points(Random& random, int particles, SpringLaw law) {
 
 int whole(Random& random, int end) { return std::min(end - 1, static_cast<int>(random.between(0, end))); }
 
-/// Random springs between few particles, the last of which has none. Springs repeat, and some have coincident ends.
+/// Random springs between few particles. The last particle has no springs, springs repeat, and some springs have
+/// coincident ends.
 SpringGraph tangle(unsigned seed, int springs, SpringLaw law) {
   Random random(seed);
   const int n = 3 + springs / 3;
@@ -76,7 +77,7 @@ SpringGraph tangle(unsigned seed, int springs, SpringLaw law) {
   return net;
 }
 
-/// Particles with 1, 2, 3 ... 40 springs each, to many other particles.
+/// Particles with 1, 2, 3 ... 40 springs, which lead to many other particles.
 SpringGraph hubs(unsigned seed, SpringLaw law) {
   Random random(seed);
   const int n = 200;
@@ -87,8 +88,8 @@ SpringGraph hubs(unsigned seed, SpringLaw law) {
   return net;
 }
 
-/// Springs of the given offsets, with one in five omitted and one in twenty duplicated. The last offset starts late and
-/// ends early. Some neighbours coincide.
+/// Springs between particles whose indices differ by the given offsets. One in five springs is missing, and one in
+/// twenty is duplicated. Springs with the last offset start late and end early. Some neighbouring particles coincide.
 SpringGraph strands(unsigned seed, int particles, const std::vector<int>& offsets, SpringLaw law) {
   Random random(seed);
   SpringGraph net = random_points(random, particles, law);
@@ -112,14 +113,14 @@ std::vector<std::pair<std::string, SpringGraph>> networks(SpringLaw law) {
   for (unsigned seed = 1; seed <= 5; ++seed) all.emplace_back(fmt::format("hubs {}", seed), hubs(seed, law));
   for (int particles = 2; particles <= 70; ++particles)
     all.emplace_back(fmt::format("strands of {}", particles), strands(particles, particles, {1, 2, 3, 8, 21}, law));
-  // rings of minimal length, and offsets around tile sizes
+  // rings of minimal length, and offsets close to tile sizes
   for (unsigned seed = 1; seed <= 5; ++seed)
     all.emplace_back(fmt::format("strands far apart {}", seed),
                      strands(seed, 700, {1, 7, 8, 9, 39, 40, 41, 103, 104, 232, 233, 5}, law));
   return all;
 }
 
-/// Each spring's force equals the plain loop's bit for bit. Sums may differ by one rounding per spring.
+/// Each spring's force is that of the plain loop, bit for bit. Sums may differ by one rounding error per spring.
 void expect_close(const SpringGraph& net, const Forces& fast, const Forces& plain) {
   const int n = static_cast<int>(net.x.cols());
   Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(n);
@@ -153,7 +154,7 @@ TEST(SpringGraph, DiaAndCooAreTheEdgeLoopButForTheOrderOfTheSum) {
           const Forces fast = sorted.forces(net.x);
           expect_close(net, fast, plain);
           EXPECT_EQ(sorted.forces(net.x).f, fast.f) << "repeated evaluation";
-          // another state in between leaves no traces
+          // an evaluation of another state in between has no effect
           sorted.forces(2 * net.x.rowwise().reverse());
           EXPECT_EQ(sorted.forces(net.x).f, fast.f);
         }
@@ -189,10 +190,10 @@ TEST(SpringGraph, PartitionsAtTheLeastCost) {
   const auto partition = [](const SpringGraph& net) {
     return spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()), {});
   };
-  // a pendulum and a short chain are too small for SIMD lanes
+  // pendulums and short chains are too small for SIMD lanes
   EXPECT_EQ(partition(strands(1, 2, {1}, SpringLaw::hooke)).plain.size(), 1u);
   EXPECT_EQ(partition(strands(1, 8, {1}, SpringLaw::hooke)).dia.size(), 0u);
-  // springs numbered row by row go to DIA, except duplicates and a few long ones
+  // if springs are numbered row by row, they go to DIA, except duplicates and a few long springs
   SpringGraph net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
   net.springs.list.push_back({3, 350, 1, 1, Family::single});
   const spring_graph::SpringPartition parts = partition(net);
@@ -223,7 +224,7 @@ TEST(SpringGraph, SpringKernelRunsOnTheRequestedInstructions) {
     kernel.add_force(net.x, fast);
     expect_close(net, fast, plain);
   }
-  const ScopedInstructionSet any_set(InstructionSet::baseline);  // restores the instruction set afterwards
+  const ScopedInstructionSet any_set(InstructionSet::baseline);  // the destructor restores the instruction set
   unsetenv("CROSSCHECK_INSTRUCTIONS");
   EXPECT_EQ(SpringKernel(net.springs, 300).isa(), simd::supported_instruction_sets().back());
 }

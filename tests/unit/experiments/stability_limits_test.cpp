@@ -1,5 +1,5 @@
-// Stability limits of whole scenes: spectra against closed forms and the code's own Jacobian, and runs that are stable
-// just below the predicted limit and fail just above it.
+// Stability limits of whole scenes: spectra are compared with closed forms and with the Jacobian of the code, and runs
+// are stable just below the predicted limit and fail just above it.
 
 #include "experiments/stability/limit.h"
 #include "experiments/stability/margin.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Four masses on a vertical line of springs below a pin, with drag.
+/// Four masses below a pin on a vertical line of springs, with drag.
 Scene vertical_chain(double gamma) {
   std::string text = gravity_text;
   for (int i = 0; i <= 4; ++i) text += fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 0.2\n", -0.5 * i);
@@ -41,17 +41,17 @@ TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
     const double sine = 2 * std::sin(i * M_PI / 18);
     expected.push_back(std::sqrt(100 / 0.1) * sine);  // longitudinal
     for (int side : {0, 1})
-      (void)side, expected.push_back(std::sqrt(2.5 / 0.275 / 0.1) * sine);  // transverse: tension over length
+      (void)side, expected.push_back(std::sqrt(2.5 / 0.275 / 0.1) * sine);  // transverse: tension divided by length
   }
   std::sort(expected.begin(), expected.end());
   const auto found = frequencies(base.spectrum);
   ASSERT_EQ(found.size(), expected.size());
-  // The equilibrium is solved to 1e-11 of what the springs could exert, 2e-8 m/s^2. For the slowest mode (11 / s^2)
-  // this is 2e-9 m: 1e-7 of the stretch and the tension, and half of that for frequencies.
+  // The equilibrium is accurate to 1e-11 of what the springs could exert, 2e-8 m/s^2. For the slowest mode (11 / s^2)
+  // this is 2e-9 m, which is 1e-7 of the stretch and of the tension. The error of frequencies is half of that.
   for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected.back());
 }
 
-/// Eigenvalues of the code's Jacobian, by central differences of its accelerations.
+/// Eigenvalues of the Jacobian of the code, which is found by central differences of accelerations.
 Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   System f(scene.model);
   const Linearised l = linearised(scene.model, scene.start);
@@ -74,7 +74,8 @@ Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   return eigenvalues(a);
 }
 
-/// At rest, with differing drag rates and damped springs, so that damping and stiffness do not share modes.
+/// A net at rest whose drag rates differ and whose structural springs are damped, so that damping and stiffness have no
+/// common modes.
 Scene mixed_net() {
   Scene scene = small_scene(std::string("[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
                                         "mass = 0.9\n[grid.stiffness]\nstructural = 100\nshear = 60\nbend = 40\n"
@@ -99,7 +100,7 @@ TEST(Spectrum, OfMixedDampingHasTheRatesOfTheCode) {
     double nearest = INFINITY;
     for (const Vibration& v : base.spectrum.modes)
       nearest = std::min(nearest, std::hypot(v.omega - std::abs(z), v.gamma + 2 * z.real()));
-    // The differences over 1e-5 m of accelerations of thousands of m/s^2 include third derivatives.
+    // Accelerations of thousands of m/s^2 are differenced over 1e-5 m; these differences include third derivatives.
     EXPECT_LT(nearest, 1e-4 * base.spectrum.omega) << z.real() << " + " << z.imag() << " i";
   }
 }
@@ -114,13 +115,13 @@ TEST(Spectrum, LanczosFindsTheEndsOfTheDenseSpectrum) {
   EXPECT_NEAR(found.front(), std::sqrt(dense[0]), 1e-4 * found.front());
 }
 
-/// Spectral radius of one step of the code, linearised about the state by central differences.
+/// Spectral radius of one step of the code, which is linearised about the state by central differences.
 double step_radius(const Stepper& rule, const Scene& scene, double h) {
   const Linearised l = linearised(scene.model, scene.start);
   const int n = l.size();
   constexpr double d = 1e-6;
   Eigen::MatrixXd a(2 * n, 2 * n);
-  const double unit = 1 / h;  // velocities in units of displacement per step
+  const double unit = 1 / h;  // velocities are measured in displacements per step
   for (int j = 0; j < 2 * n; ++j) {
     State side[2] = {scene.start, scene.start};
     for (const int s : {0, 1}) {
@@ -148,7 +149,7 @@ TEST(PredictedLimit, OfMixedDampingIsWhereTheStepMatrixTurnsUnstable) {
     if (!std::isfinite(p.limit)) continue;
     ++finite;
     ASSERT_GT(p.limit, 0);
-    // Differences are accurate to about 1e-9, and coincident eigenvalues to the square root of that.
+    // Differences are accurate to about 1e-9, and coincident eigenvalues to the square root of this.
     EXPECT_LE(step_radius(rule, base.scene, 0.98 * p.limit), 1 + 1e-4);
     EXPECT_GT(step_radius(rule, base.scene, 1.02 * p.limit), 1 + 1e-4);
   }
@@ -171,7 +172,7 @@ TEST(PredictedLimit, OfFastRatesAloneIsToldWhereTheyBind) {
   const BaseState base = base_state_of(net);
   ASSERT_FALSE(base.spectrum.complete || base.spectrum.commuting);
   // These rules are limited by the mode with the least damping relative to its stiffness, which need not be among the
-  // four fastest.
+  // four fastest rates.
   for (const char* rule : {"explicit-euler", "trapezoidal", "dopri5"})
     EXPECT_TRUE(contains(predicted_limit(stepper(rule), base.spectrum).missing, "only the fastest rates")) << rule;
   const PredictedLimit p = predicted_limit(stepper("rk4"), base.spectrum);
@@ -216,7 +217,7 @@ TEST(LargestStep, IsBracketedFromBothSides) {
   EXPECT_EQ(largest_step([](double) { return false; }, 1, 1e-4, 100, 0.01).kind, MeasuredLimit::no_step);
 }
 
-/// Every fixed-step method of mysim, and other methods that follow one of their rules.
+/// All fixed-step methods of mysim with a linear limit, and other methods that follow one of their rules.
 std::vector<Method> methods_with_limits() {
   std::vector<Method> methods;
   for (Method& m : all_methods())
@@ -245,7 +246,7 @@ TEST(MeasuredLimit, OnLinearScenesHoldsTwoPerCentBelowAndFailsTwoPerCentAbove) {
   EXPECT_EQ(tried, 3 * 6 + 3 * 8);  // without drag explicit Euler and trapezoidal have no stable step
 }
 
-/// Rounding in single precision does not count as growth.
+/// Growth due to rounding in single precision does not count.
 TEST(MeasuredLimit, OfSinglePrecisionIsThePredictedOneToTwoPerCent) {
   const BaseState base = base_state_of(load_scene("chain-link"));
   const Method single = find_method("bullet32/deformable-explicit");
@@ -280,14 +281,15 @@ TEST(MeasuredLimit, OfAKilogramOnASpringIsThatOfTheRuleWhereverTheSearchBegins) 
       const MeasuredLimit m = measured_limit(find_method(name), base, 4000, {}, 0.002);
       ASSERT_EQ(m.kind, MeasuredLimit::found);
       EXPECT_NEAR(m.limit() / (stepper(name).limit(10, 0)), 1, 0.01);
-      // A search that started at the theoretical limit would hit it exactly.
+      // the search must not start at the theoretical limit, which it would then find exactly
       EXPECT_LT(m.held, stepper(name).limit(10, 0));
     }
   }
 }
 
 TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
-  // Upright and held at two corners: the springs between the corners are compressed in the plane of the cloth.
+  // An upright cloth that hangs from two corners: the springs between the corners are compressed in the plane of the
+  // cloth.
   const Scene cloth = small_scene(
       std::string("[grid]\nsize = [6, 7]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -1, 0]\nmass = 0.25\n"
                   "[grid.stiffness]\nstructural = 200\nshear = 200\nbend = 200\n[pins]\nparticles = [0, 5]\n") +
@@ -313,7 +315,8 @@ TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
 }
 
 TEST(Outlook, TellsSmallMarginsAndCertainGrowth) {
-  // Stretched along and free across: omega^2 = 2 k / m along the springs at rest, and no more for any stretch.
+  // If the springs are stretched, they resist motion across, too. At rest, omega^2 = 2 k / m along the springs, and no
+  // stretch gives more.
   const Scene net = with_grid("cloth-hang", 5);
   Scene free = net;
   std::erase_if(free.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
@@ -343,8 +346,8 @@ TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) 
       for (const double z : {0.1, 0.3}) {
         const double expected = method.stepper->order == 1 ? std::sqrt(1 + z * z) : std::sqrt(1 + z * z * z * z / 4);
         const PerturbedRun trial = run_perturbed(method, base, z / omega, 200, {mode});
-        // Rounding of 1e-16 m relative to a kick of 1.5e-8 of a spring, accumulated over two hundred steps, and the
-        // nonlinearity of the kick.
+        // Errors: rounding of 1e-16 m relative to a kick of 1.5e-8 of a spring, accumulated over two hundred steps; and
+        // the nonlinearity of the kick.
         EXPECT_NEAR(std::log(trial.per_step) / std::log(expected), 1, 1e-2);
       }
     }
@@ -353,7 +356,7 @@ TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) 
 }
 
 TEST(MeasuredLimit, ImplicitRulesHaveNone) {
-  // One Gauss-Seidel pass over springs that pull against each other settles next to their equilibrium, which is not
+  // With springs that pull against each other, one Gauss-Seidel pass settles next to the equilibrium; this is not
   // growth.
   for (const char* scene : {"spring", "normal-modes"}) {
     const BaseState base = base_state_of(load_scene(scene));
@@ -377,7 +380,7 @@ TEST(MeasuredLimit, EndsAtARefusalOnlyWhereThatComesFirst) {
     EXPECT_EQ(m.kind, refused < limit ? MeasuredLimit::refused_above : MeasuredLimit::found);
     EXPECT_LT(m.held, std::min(refused, limit));
     EXPECT_GT(m.held, std::min(refused, limit) / 1.1);
-    // If the limit is below the refusal threshold, no refused step was tried.
+    // If the limit is below the length of refused steps, no refused step was tried.
     EXPECT_EQ(m.reason.ends_with(" s has no answer: too long"), refused < limit) << m.reason;
   }
 }
@@ -403,7 +406,7 @@ TEST(MeasuredLimit, OfARotationIsSeenInTheFactorOfEachStep) {
     EXPECT_EQ(measured_limit(find_method(rule), base, 4000, {0}, 0.01).kind, MeasuredLimit::no_step) << rule;
   const PerturbedRun slow = run_perturbed(find_method("trapezoidal"), base, 1. / 16, 4000, {0});
   ASSERT_TRUE(slow.of_mode);
-  // growth of 1.9e-6 per step, up to the rounding of |x| in each of 4000 steps
+  // the growth is 1.9e-6 per step, up to the rounding of |x| in each of 4000 steps
   EXPECT_NEAR(slow.per_step - 1, std::sqrt(1 + std::pow(16., -4) / 4) - 1, 1e-12);
   const MeasuredLimit rk4 = measured_limit(find_method("rk4"), base, 1000, {0}, 0.002);
   EXPECT_EQ(rk4.kind, MeasuredLimit::found);
@@ -411,7 +414,7 @@ TEST(MeasuredLimit, OfARotationIsSeenInTheFactorOfEachStep) {
 }
 
 TEST(Kicks, AreBesideTheShortestSpringThatHasALength) {
-  // a particle on a spring, and another at the same place, attached by a spring of zero length
+  // a particle on a spring, and another particle at the same position, attached by a spring of zero length
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0.5, 0, 0]\nmass = 1\n"
       "[[particle]]\nposition = [0.5, 0, 0]\nmass = 1\n[[spring]]\nends = [0, 1]\nstiffness = 100\n"
@@ -422,8 +425,8 @@ TEST(Kicks, AreBesideTheShortestSpringThatHasALength) {
 }
 
 TEST(MeasuredLimit, OfASceneWithoutRestIsHeldAgainstTheTruthOnBothSides) {
-  // Two masses on a slightly stretched spring fall on a ball. From 2 / omega = 2 / sqrt(2 k / m), leapfrog is stable up
-  // to 14 ms.
+  // Two masses on a slightly stretched spring fall on a ball. By the limit 2 / omega = 2 / sqrt(2 k / m), leapfrog is
+  // stable up to 14 ms.
   Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1.1, 0]\nmass = 0.1\n[[particle]]\n"
                                         "position = [0.501, 1.1, 0]\nmass = 0.1\n[[spring]]\nends = [0, 1]\n"
                                         "stiffness = 1000\nrest = 0.5\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n"
@@ -447,7 +450,7 @@ TEST(MeasuredLimit, OfASceneWithoutRestIsHeldAgainstTheTruthOnBothSides) {
   EXPECT_GT(*row.error_below, *row.truth_bar);
   EXPECT_LT(*row.error_below, 0.1 * *row.motion);
   EXPECT_GT(*row.error_above, 0.1 * *row.motion);
-  // scenes with an equilibrium need theory only
+  // for scenes with an equilibrium, theory suffices
   TableSet of_rest;
   add_limit(vertical_chain(0), find_method("leapfrog"), {400, 0.01}, of_rest);
   EXPECT_FALSE(rows_of<LimitRow>(*of_rest.table("stability"))[0].error_below);

@@ -1,4 +1,4 @@
-// Corrected statements in hand-written texts must remain correct.
+// Statements in hand-written texts that were once wrong and corrected must remain correct.
 
 #include <fstream>
 
@@ -28,7 +28,7 @@ std::vector<std::string> lines_with(const std::string& word) {
 }
 
 TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
-  // With dashpots the world reports a different law, so that the README must not claim the same rule there.
+  // With dashpots, the world reports a different law, so that the README must not claim that it follows the same rule.
   const Scene jelly = load_scene("jelly");
   ASSERT_TRUE(jelly.model.find<Dashpots>());
   const Outcome with = run_and_record("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;
@@ -55,7 +55,7 @@ TEST(Statements, OrderSaysWhyItLeavesOutLargeScenes) {
   request.scenes = {load_scene("cloth-hang")};
   const TableSet tables = computed(find_experiment("order").points(request));
   ASSERT_EQ(tables.notes.size(), 1u);
-  // speed-accuracy shows the order of four rules on this scene: 1.00, 2.02, 4.14 and 4.02 are measured
+  // speed-accuracy measures the orders of four rules on this scene: 1.00, 2.02, 4.14 and 4.02
   EXPECT_EQ(tables.notes[0],
             "order leaves out cloth-hang: its runs would cost much; speed-accuracy has its error over the step");
 }

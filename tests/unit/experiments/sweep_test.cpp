@@ -1,4 +1,5 @@
-// Sweeps: each point is computed once, wherever and in whatever order; failures are named; shards merge into the whole.
+// Sweeps: each point is computed only once, on any machine and in any order; failures are named; shards merge into the
+// whole.
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -28,7 +29,7 @@ namespace {
 using namespace testing_tools;
 namespace fs = std::filesystem;
 
-/// Succeeds if the call throws an E whose message contains `part`.
+/// Succeeds if `call` throws an E whose message contains `part`.
 template <class E, class F>
 ::testing::AssertionResult throws(F call, const std::string& part) {
   try {
@@ -54,7 +55,7 @@ class Sweep : public InFolder {
     for (int i = 0; i < count; ++i) points.push_back(point("p" + std::to_string(i), 1.0 / (i + 3)));
     return points;
   }
-  /// In a file, because points run in other processes.
+  /// Writes the name to a file, because points run in other processes.
   void note(const std::string& name) const { std::ofstream(folder_ / "ran", std::ios::app) << name << "\n"; }
   std::vector<std::string> ran() const {
     std::ifstream in(folder_ / "ran");
@@ -73,7 +74,7 @@ class Sweep : public InFolder {
 
   void SetUp() override {
     InFolder::SetUp();
-    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // avoids waiting for other runs
+    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // the tests do not wait for other runs
     store = Store(folder_ / "points");
   }
   Store store{""};
@@ -160,7 +161,7 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   EXPECT_TRUE(missing.empty());
   ASSERT_EQ(all.notes.size(), 2u);
   EXPECT_TRUE(contains(all.notes[0], "p2 was timed beside other work"));
-  // All locks share one patience, and acquiring a free lock needs none.
+  // All locks share one patience. Acquiring a free lock needs no patience.
   LockPatience little(0.1), none(0);
   EXPECT_FALSE(MachineLock(MachineLock::Mode::shared, little).held());
   close(other);
@@ -185,7 +186,7 @@ TEST_F(Sweep, AllMeasurementsOfACommandWaitTogetherNoLongerThanTheLimit) {
     EXPECT_EQ(whole(timed).notes.size(), 1u);
     EXPECT_EQ(time_round_robin(turns, {1, 1e-5}, patience).size(), 1u);
   }
-  // Six separate waits would take 6 limits. The work itself takes 20 ms.
+  // Six separate waits would take six times the limit. The work itself takes 20 ms.
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 4 * limit);
   close(other);
 }
@@ -259,7 +260,7 @@ TEST_F(Sweep, WhatThrowsOrDiesIsNamedAndTheOthersGoOn) {
   EXPECT_EQ(failed["p4"], "it ended early");
   whole(points);
   EXPECT_EQ(missing, (std::vector<std::string>{"p1", "p3", "p4"}));
-  // once repaired, the points are computed, and no failure remains
+  // after the repair, the points are computed, and no failure remains
   EXPECT_TRUE(run(several(6)).empty());
 }
 
@@ -292,7 +293,7 @@ TEST_F(Sweep, WhatIsNotThereAfterwardsIsNamedWhoeverLostIt) {
 }
 
 TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
-  // as under a parent that ignores SIGCHLD: the system reaps the workers itself
+  // simulates a parent that ignores SIGCHLD, so that the system reaps the workers itself
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const pid_t child = fork();
   if (child == 0) {
@@ -318,7 +319,7 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
     run(points, {LockPatience(), 1});
     _exit(0);
   }
-  while (ran().size() < 6) usleep(1000);  // five points, and the slow one has started
+  while (ran().size() < 6) usleep(1000);  // waits until five points are done, and the slow one has started
   kill(child, SIGKILL);                   // and its worker
   waitpid(child, nullptr, 0);
   usleep(700000);
@@ -363,7 +364,7 @@ TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   timed[0].timed = true;
   const pid_t child = fork();
   if (child == 0) {
-    setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems set one per job
+    setenv("TMPDIR", folder_.c_str(), 1);  // batch systems set a TMPDIR for each job
     run(others, {LockPatience(), 3});
     _exit(0);
   }

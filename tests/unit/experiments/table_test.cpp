@@ -125,10 +125,10 @@ TEST(TypedTables, RowsComeBackFromTheirFileAsTheyWere) {
   EXPECT_EQ(rows_of<ProbeRow>(table), rows);
   EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), rows);
   EXPECT_EQ(csv_row(table.rows[1]), "\"with, comma\",-3,-1,0,0,timeout,,,");
-  // columns without any value are read as text
+  // columns in which all cells are empty are read as text
   table.rows = {table.rows[1]};
   EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), std::vector{rows[1]});
-  // A file's integers are accepted as floating-point numbers, but not vice versa.
+  // Integers in a file are accepted as floating-point numbers, but not vice versa.
   table.rows[0][2] = 0.5;
   EXPECT_TRUE(contains(refusal<ProbeRow>(table), "table probe, column count: expected a whole number"));
 }
@@ -232,7 +232,8 @@ TEST(Files, UnwritablePathsAreNamedAndNothingIsLeft) {
   const Folder folder("unwritable");
   write_file(folder.path() / "file", "x");
   fs::create_directories(folder.path() / "taken" / "inside");
-  // Below a file, in place of a non-empty folder, and in a file system without regular files: these fail for root too.
+  // A file cannot be written below another file, in place of a non-empty folder, or in a file system without regular
+  // files, not even by root.
   for (const fs::path& file :
        {folder.path() / "file" / "below.csv", folder.path() / "taken", fs::path("/proc/crosscheck.csv")}) {
     SCOPED_TRACE(file);

@@ -15,7 +15,8 @@ TranslatedRun run(const Scene& scene, const std::string& to, double h) {
 }
 
 TEST(TranslatedRun, ErrsAsTheEngineDoes) {
-  // Translating there and back yields the scene up to rounding. What remains is the engine's own error at this step.
+  // Translating a scene and translating it back yields the scene up to rounding. The remaining error is that of the
+  // engine at this step.
   const Scene scene = load_scene("chain");
   for (const std::string to : {"bullet/pbd+n=4", "bullet/deformable-implicit", "mysim/xpbd"}) {
     const crosscheck::Run at = default_run(scene);
@@ -32,7 +33,7 @@ TEST(TranslatedRun, ErrsAsTheEngineDoes) {
 }
 
 TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
-  // strains of 1e-4, where the link law agrees with Hooke's law to 5e-5
+  // strains are 1e-4, for which the link law agrees with Hooke's law to 5e-5
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 0.1\n[[particle]]\nposition = [0, -1, 0]\nmass = 0.1\n[[particle]]\n"
       "position = [0, -2, 0]\nmass = 0.1\n[[spring]]\nends = [0, 1]\nstiffness = 200\n[[spring]]\nends = [1, 2]\n"
@@ -46,7 +47,7 @@ TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
 
 TEST(TranslatedRun, WithContactOfWhichNoTruthIsKnownIsADifferenceAndNoError) {
   // Two particles on a spring above a moving ball, which they reach after 0.2 s. The ball is listed twice, which the
-  // second route does not support, so that only the contact rule is left.
+  // second solution does not support, so that only that of the contact rule remains.
   const std::string ball =
       "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.1\nfriction = 0.3\n"
       "[sphere.motion]\namplitude = [0, 0.01, 0]\nfrequency = 0.5\nramp = 0.5\n";

@@ -21,7 +21,7 @@ struct Units {
   double length = 1, mass = 1, time = 1;
 };
 
-/// Converts each number that is followed by a unit to the given units. Exact for powers of two.
+/// Converts each number that is followed by a unit to the given units. The conversion is exact for powers of two.
 std::string in_units(const std::string& text, const Units& u) {
   const std::pair<const char*, double> factors[] = {
       {"kg/m3", u.mass / (u.length * u.length * u.length)},
@@ -132,7 +132,8 @@ Scene scene_in(const Kind& kind, const Units& u) {
   return parse_scene(in_units(head + kind.text, u), kind.name);
 }
 
-/// Each unit alone, scaled up and down by each of the factors, then `mixed` combinations of all three.
+/// Units of length, mass or time, each scaled alone up and down by each of the factors, and then `mixed` combinations
+/// of all three.
 std::vector<Units> units_by(std::vector<double> factors, int mixed, unsigned seed) {
   std::vector<Units> list;
   for (const double factor : factors)
@@ -198,7 +199,7 @@ TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
   }
 }
 
-/// `step` in s, converted from the units of `kind`.
+/// Runs the scene in the units `u`, to which `step` (s) is converted.
 MethodRun run_in(const Kind& kind, const Units& u, const std::string& method, double step) {
   const Scene scene = scene_in(kind, u);
   return run_and_record(method, scene, {step * u.time, 8 * step * u.time * 12, 8, 1e-6});
@@ -217,7 +218,7 @@ TEST(Units, ChangeNoVerdict) {
         for (const Units& u : units_by({0x1p10, 0x1p20}, 1, seed++)) {
           const MethodRun there = run_in(kind, u, method, step);
           SCOPED_TRACE(fmt::format("{} {} {} {:a} {:a} {:a}", kind.name, method, step, u.length, u.mass, u.time));
-          // Floating-point overflow is absolute: squares overflow one step earlier in some units.
+          // Floating-point overflow does not depend on units, so that squares overflow one step earlier in some units.
           const auto blew_up = [](Verdict v) { return v == Verdict::energy || v == Verdict::nan; };
           if (there.outcome.verdict != here.outcome.verdict && blew_up(there.outcome.verdict) &&
               blew_up(here.outcome.verdict)) {

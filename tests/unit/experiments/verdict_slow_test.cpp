@@ -1,4 +1,4 @@
-// A fixed sample of the verdict trials. verdict_trials.cpp runs all of them; tests/data contains its output.
+// A fixed sample of the verdict trials. verdict_trials.cpp runs all trials; its output is in tests/data.
 
 #include <filesystem>
 
@@ -29,9 +29,9 @@ TEST(VerdictTrials, AFixedSampleIsJudgedRightly) {
   for (const TrialFamily& family : trial_families()) EXPECT_GE(cells[std::string(family.name)], 10) << family.name;
   EXPECT_GE(good, 200);
   EXPECT_GE(bad, 40);
-  // 0.5 %, plus one for sampling
+  // 0.5 %, plus one run to allow for sampling
   EXPECT_LE(static_cast<double>(condemned), 1 + 0.005 * static_cast<double>(good));
-  // 1 %, plus one for sampling
+  // 1 %, plus one run to allow for sampling
   EXPECT_LE(static_cast<double>(passed), 1 + 0.01 * static_cast<double>(bad));
 }
 

@@ -1,7 +1,7 @@
-// Trials of run verdicts (mysim/run/observers.h), not part of the suite: random trials by seed, each run to its end
-// without being stopped. For each family, prints how many good runs were condemned and how many bad ones passed, with
-// 95 % intervals (C. J. Clopper and E. S. Pearson, 1934), once as runs are normally judged and once looking at every
-// step. Writes verdict-trials.csv and verdict-trials-by-family.csv.
+// Trials of run verdicts (mysim/run/observers.h), not part of the suite. The trials are random, with a seed each, and
+// every run continues to its end. For each family of methods, prints how many good runs were condemned and how many bad
+// runs passed, with 95 % intervals (C. J. Clopper and E. S. Pearson, 1934). Runs are judged twice: in the normal way,
+// and with every step observed. Writes verdict-trials.csv and verdict-trials-by-family.csv.
 //
 //   verdict_trials [SEEDS=4000] [FOLDER=.] [FIRST=1]
 #include "tests/unit/experiments/verdict_trials.h"
@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
                {"fails later", "1"},
                {"margin", "1"}},
               {}};
-  std::map<std::string, std::array<Count, 2>> counts;  // by family: stable, unstable
-  std::map<std::string, std::array<long, 2>> later;    // fails later; among these, reported as a small margin
+  std::map<std::string, std::array<Count, 2>> counts;  // by family: counts of stable and unstable runs
+  std::map<std::string, std::array<long, 2>> later;    // by family: later failures; those warned of a small margin
   for (unsigned seed = first; seed <= last; ++seed) {
     std::optional<Trial> t;
     try {

@@ -1,5 +1,5 @@
-// Random trials of verdicts: a small scene, a method and a step on either side of its stability limit, compared with
-// the same run without a stop.
+// Random trials of verdicts: a small scene is run with a method and a step on either side of its stability limit. The
+// verdict is compared with the same run without a stop.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Families of methods with separate verdict counts.
+/// Families of methods whose verdicts are counted separately.
 struct TrialFamily {
   std::string_view name;
   std::vector<std::string> methods;
@@ -35,10 +35,10 @@ inline const std::vector<TrialFamily>& trial_families() {
 /// A random scene and its characteristic rates.
 struct TrialScene {
   Scene scene;
-  std::string kind;  // body, and a letter per ingredient
+  std::string kind;  // kind of body, and a letter per ingredient
   double omega = 0;  // rad/s, fastest vibration at the start
   double gamma = 0;  // 1/s, drag rate
-  double beta = 0;   // s, dashpot coefficient over stiffness
+  double beta = 0;   // s, dashpot coefficient divided by stiffness
 };
 
 /// One mass, a chain or a net of springs, free or pinned, slack or prestressed. Some have gravity, drag, dashpots,
@@ -47,14 +47,14 @@ inline TrialScene trial_scene(Random& random) {
   SceneWriter w;
   TrialScene trial;
   const double d = decades(random, 0.05, 0.5), mass = decades(random, 0.01, 1), k = decades(random, 3, 3000);
-  const double omega = std::sqrt(k / mass);  // single spring and mass
+  const double omega = std::sqrt(k / mass);  // frequency of a single spring and mass
   const int body = whole(random, 0, 2);
   const int nx = body == 0 ? 2 : whole(random, 3, body == 1 ? 7 : 5), ny = body == 2 ? whole(random, 3, 5) : 1;
   const double prestress = chance(random, 0.35) ? random.between(0.5, 0.95) : chance(random, 0.15) ? 1.1 : 1;
   const bool air = body == 2 && chance(random, 0.15), gravity = chance(random, 0.6);
   const bool ball = gravity && chance(random, 0.35), held = !ball || chance(random, 0.3);
   if (chance(random, 0.3)) trial.beta = decades(random, 1e-3, 0.2) / omega;
-  // from hanging vertically to lying flat
+  // the cloth's position ranges from vertical to flat
   const Vec3 u = body == 1 && chance(random, 0.5) ? Vec3(0, -1, 0) : Vec3(1, 0, 0),
              v = chance(random, 0.5) ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
   const double speed = chance(random, 0.4) ? decades(random, 0.01, 1) * omega * d : 0, off = decades(random, 1e-3, 0.3);
@@ -64,7 +64,7 @@ inline TrialScene trial_scene(Random& random) {
       pins = {0};
       if (nx > 2 && chance(random, 0.5)) pins.push_back(nx - 1);
     } else {
-      const int which = whole(random, 0, 2);  // two corners, an edge, the whole rim
+      const int which = whole(random, 0, 2);  // pins: two corners, an edge, or the whole rim
       for (int i = 0; i < nx * ny; ++i) {
         const int x = i % nx, y = i / nx;
         if (which == 0 ? i == 0 || i == nx - 1 : which == 1 ? y == 0 : x == 0 || y == 0 || x == nx - 1 || y == ny - 1)
@@ -116,7 +116,7 @@ inline TrialScene trial_scene(Random& random) {
   trial.scene = w.scene("trial", duration, 0.1 / omega, 10);
   Model& model = trial.scene.model;
   if (ball) {
-    // below the centre of the body, and close enough that a falling or swinging body hits it
+    // the sphere is below the centre of the body, and so close that a falling or swinging body hits it
     const Points& x = trial.scene.start.x;
     const double size = std::max(d, trial.scene.size()), radius = random.between(0.3, 1) * size;
     Vec3 centre = x.rowwise().mean();
@@ -139,7 +139,7 @@ inline TrialScene trial_scene(Random& random) {
         trial.scene.triangles.push_back({i, i + 1, i + nx});
         trial.scene.triangles.push_back({i + 1, i + nx + 1, i + nx});
       }
-    // the pressure is up to a third of the force of a spring stretched by its length
+    // the pressure is at most a third of the force of a spring stretched by its length
     const double flow = omega * d, density = decades(random, 1e-3, 0.3) * mass / (d * d * d);
     model.terms.emplace_back(Aerodynamics{density, 1, WindSignal{flow * random.vector(), {}}, trial.scene.triangles});
     trial.kind += "a";
@@ -149,7 +149,8 @@ inline TrialScene trial_scene(Random& random) {
   return trial;
 }
 
-/// Extent and speed of a run at every step, from positions alone, and the verdicts of monitors that do not stop it.
+/// Extent and speed of a run at every step, computed from positions alone, and the verdicts of monitors that do not
+/// stop the run.
 class UnstoppedRun : public Observer {
  public:
   /// Uses two monitors: one observes all steps, the other only the states that verdicts are normally based on.
@@ -179,7 +180,7 @@ class UnstoppedRun : public Observer {
   double largest_ratio() const { return all_.largest_ratio(); }
 
   double stretch = 0, speed = 0;  // largest values: spring length over rest length [1], and speed of a particle (m/s)
-  long left = 0;                  // first step beyond either bound; 0 if there is none
+  long left = 0;                  // first step beyond one of the bounds; 0 if there is none
   Verdict by_all = Verdict::ok, by_pairs = Verdict::ok;
   long when_all = 0, when_pairs = 0;  // steps of these verdicts
 
@@ -223,17 +224,17 @@ struct TrueMotion : Observer {
 struct Trial {
   unsigned seed = 0;
   std::string family, method, kind;
-  double step = 0, share = 0;  // s; step over limit, or 0 without a limit
+  double step = 0, share = 0;  // s; ratio of the step to the limit, or 0 if there is no limit
   long steps = 0;
-  double stretch = 0, speed = 0;          // relative to the truth's maximum
-  bool within = false;                    // stretch and speed stay within a factor of ten to the end
-  bool later = false;                     // within, but not in a run ten times as long
+  double stretch = 0, speed = 0;          // relative to the maxima of the reference solution
+  bool within = false;                    // stretch and speed stay within a factor of ten of these maxima to the end
+  bool later = false;                     // as `within`, but no longer true in a run ten times as long
   long left = 0;                          // first step beyond the bounds
-  Verdict verdict = Verdict::ok;          // from the states that runs are normally judged on
+  Verdict verdict = Verdict::ok;          // from the states on which verdicts are normally based
   Verdict every = Verdict::ok;            // from every step
   long when_verdict = 0, when_every = 0;  // steps of these verdicts
   double most = 0;                        // K^ / B of mysim/run/observers.h
-  double margin = 0;                      // 1: limit with every spring stretched far, divided by the step, minus 1
+  double margin = 0;                      // 1, limit with all springs stretched far divided by the step, minus 1
   bool wrong(Verdict said) const { return within ? said != Verdict::ok : said == Verdict::ok; }
 };
 
@@ -242,8 +243,8 @@ inline double nominal_limit(const Stepper& rule, const TrialScene& trial, double
   return std::min(rule.limit(omega, trial.gamma + trial.beta * omega * omega), rule.limit(omega, trial.gamma));
 }
 
-/// Nothing if the method does not support the scene, the step is within 0.5 % of the limit, or the reference solution
-/// hardly moves.
+/// Runs the trial of a seed. Returns nullopt if the method does not support the scene, the step is within 0.5 % of the
+/// limit, or the reference solution hardly moves.
 inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   Random random(seed);
   const TrialFamily& family = trial_families()[seed % trial_families().size()];
@@ -291,7 +292,7 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
     trial.verdict = freely.by_pairs, trial.every = freely.by_all;
     trial.when_verdict = freely.when_pairs, trial.when_every = freely.when_all;
     trial.most = freely.largest_ratio();
-    // unpinned bodies only fall further
+    // unpinned bodies would only fall farther in a longer run
     const bool held = !scene.model.particles.pins.empty();
     if (longer && held && trial.within && trial.share > 0.8 && trial.verdict == Verdict::ok) {
       Run tenfold = run;
