@@ -33,8 +33,7 @@ std::optional<State> rest_of(const Scene& scene) {
   Points a(3, s.x.cols());
   const double omega = highest_frequency(model, s);
   if (!(omega > 0)) return std::nullopt;
-  // 2 / omega is the stability limit at the start; the load only lowers the frequency of a spring that it stretches
-  // sideways
+  // 2 / omega is the stability limit at the start; a spring that stretches across the load only has a lower frequency
   double h = 0.8 / omega, before = 0, scale = 0;
   constexpr int most_steps = 100000, check = 50;
   // rounding error at rest: the forces that cancel have errors of a few ulps of the force of springs stretched over the

@@ -30,7 +30,7 @@ Scene perturbed(const Scene& scene, double size, unsigned seed);
 /// Growth of a perturbation of 1e-10 m of every free particle, in seeded random directions.
 struct Growth {
   std::vector<double> t;       // s, of the samples
-  std::vector<double> factor;  // largest distance so far of a particle from its unperturbed position / 1e-10 m
+  std::vector<double> factor;  // largest distance so far from the unperturbed position, in units of 1e-10 m
 
   /// The largest factor up to `time` (s); 0 if no sample is that early.
   double until(double time) const;

@@ -38,7 +38,7 @@ struct AblatedModel {
 /// that adds the least error, until the error exceeds `most` (m) or nothing is left to remove.
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& reference, double most);
 
-/// The model with the fewest ingredients that is within the tolerance (m).
+/// The model with the fewest ingredients whose error is within the tolerance (m).
 const AblatedModel& least_model(const std::vector<AblatedModel>& models, double tolerance);
 
 /// Distance of a model of the scene from `truth` over time, m. Empty if the run failed.

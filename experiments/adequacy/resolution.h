@@ -30,7 +30,7 @@ struct PowerLaw {
 std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& points);
 
 /// Scaling of the stiffness k of bend (skip-one) springs with the grid, for the same droop. The model is one line of a
-/// cloth of 1 m and 0.1 kg, held flat by bend springs and kept from stretching by structural ones. Two pinned
+/// cloth of 1 m and 0.1 kg, held flat by bend springs and kept from stretching by structural springs. Two pinned
 /// particles, half a cell to either side of the clamp, clamp it flat, so that the free length is the same on all grids.
 /// Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by d kappa, which
 /// shortens a bend spring over them by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32 per particle, and

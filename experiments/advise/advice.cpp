@@ -162,7 +162,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // stops at four times the best cost, because no dearer method is an alternative
+                      model.name);  // stops at four times the best cost; costlier methods are no alternative
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {

@@ -48,9 +48,9 @@ struct Advice {
   size_t chosen = 0;                   // index of a trial
   std::vector<size_t> tied = {};       // other methods that meet the tolerance at the same cost, but less accurately
   std::optional<size_t> second = {};   // index of the cheapest other method that meets the tolerance
-  std::optional<size_t> of_full = {};  // the choice for the full scene, if a smaller model is cheaper
+  std::optional<size_t> of_full = {};  // index of the choice for the full scene, if a smaller model is cheaper
   StepBound bound = StepBound::none;   // reason why the step is not longer
-  bool between_samples = false;        // the error between samples exceeded the tolerance
+  bool between_samples = false;        // true if the error between samples exceeded the tolerance
   std::vector<std::string> left_out = {};
   std::string toml = {};                // scene file that runs as advised
   double checked = 0;                   // m, error of a run of that file

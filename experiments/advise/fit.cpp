@@ -172,8 +172,9 @@ class Fit {
   }
   Scene scene_at(const Eigen::VectorXd& p) const { return parse_scene(file_at(p).text(), name_); }
 
-  /// Sets the unit of each kind's range. Time: that of the wish, or of a fall over the scene's size, or the duration.
-  /// Mass: the mean over the particles; if masses are fitted, a known stiffness times the time squared.
+  /// Sets the unit of each kind's range. The unit of time is that of the wish, the time of a fall over the scene's
+  /// size, or the duration. The unit of mass is the mean over the particles or, if masses are fitted, a known stiffness
+  /// times the unit of time squared.
   void set_units(const Scene& scene) {
     const auto* gravity = scene.model.find<Gravity>();
     const auto* springs = scene.model.find<Springs>();

@@ -16,8 +16,8 @@ Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
 Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
-/// For engines with unknown properties: leapfrog's limit and three successive halves of it, to cover the cost of large
-/// and of small errors; for adaptive methods, tolerances like odeint's.
+/// Settings for engines with unknown properties: leapfrog's limit and three successive halvings of it, which cover the
+/// cost of large and of small errors; for adaptive methods, tolerances as for odeint.
 Peer chosen(const std::string& name) {
   if (find_method(name).adaptive) return {name, {1e-4, 1e-6}};
   return {name, {1, 0.5, 0.25, 0.125}};
@@ -45,7 +45,8 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond
+                   // numbers of particles a side: for one thread only, the smallest for two threads, the largest in the
+                   // caches of two cores, and a larger one
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},
@@ -74,7 +75,7 @@ BenchResult bench(const BenchSuite& suite, const LockPatience& patience) {
   std::vector<EqualErrorOptions> cloths;
   for (const BenchSuite::PeerCloth& cloth : suite.cloths)
     cloths.push_back({std::make_shared<const Scene>(cloth.scene()), cloth.peers, suite.turns});
-  // 3: shipped scenes, and two cloths at the same step
+  // 3 units of work: the shipped scenes, and two cloths at the same step
   size_t work = 3 + suite.kernel_sides.size() + suite.threads.sides.size() +
                 suite.implicit_step.sides.size() * suite.implicit_step.rates.size();
   for (const EqualErrorOptions& options : cloths) work += static_cast<size_t>(work_of(options));

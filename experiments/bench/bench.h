@@ -16,7 +16,7 @@ struct BenchSuite {
   };
   std::vector<int> kernel_sides;    // particles along each side of the cloths for the kernels
   std::vector<std::string> scenes;  // scenes on which the engine's kernels are compared with the naive loop
-  std::vector<PeerCloth> cloths;    // compared at equal error
+  std::vector<PeerCloth> cloths;    // cloths on which peers are compared at equal error
   SameStepOptions same_step;
   ImplicitStepOptions implicit_step;
   MicrobenchmarkOptions kernels, on_scenes;

@@ -16,7 +16,7 @@ struct Microbenchmark {
 
 struct MicrobenchmarkOptions {
   int rounds = 15;
-  double seconds = 0.02;  // for each piece in each round
+  double seconds = 0.02;  // duration of each piece in each round
 };
 
 /// CPU time of one run of each piece, s, by name and round. A round runs all pieces one after the other, so that a slow

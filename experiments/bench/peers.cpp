@@ -128,8 +128,8 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio. Returns false if no run is
-/// that accurate.
+/// Enters mysim's cheapest run with an error of at most `bound` (m), its time and the ratio in the row. Returns false
+/// if no run is that accurate.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {

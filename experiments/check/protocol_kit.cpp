@@ -263,7 +263,7 @@ class Kit {
           json.find(key) ? what : fmt::format("add the key: {}", what), run_file);
   }
 
-  /// Repeats the call in the way of all commands, and checks verdict, pins, ingredients and certificate.
+  /// Repeats the call in the way in which all commands make it, and checks verdict, pins, ingredients and certificate.
   void try_whole(const Scene& scene, const Run& run, const KitCall& made) {
     Recorder recorder;
     const Outcome out = run_method(method_, scene, run, {&recorder});

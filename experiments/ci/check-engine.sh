@@ -16,7 +16,7 @@ baselines=${BASELINES:-crosscheck-baselines}
 [ -z "${PREPARE:-}" ] || bash -euxc "$PREPARE"
 
 status=0
-step() { # NAME COMMAND...: runs the command; status 1 is a negative answer, anything above ends the script
+step() { # NAME COMMAND...: runs the command; status 1 is a negative answer, a higher status ends the script
   local name=$1 ended=0
   shift
   printf '== %s\n' "$*"

@@ -215,7 +215,7 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
 
 namespace {
 
-constexpr double returned = 0.8, width = 0.7, speed = 3;  // e, m between the contact planes, m/s
+constexpr double returned = 0.8, width = 0.7, speed = 3;  // restitution; m between the contact planes; m/s
 constexpr int periods = 10;
 
 /// Highest position after the third landing, m; 0 if there are fewer landings.

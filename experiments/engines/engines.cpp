@@ -103,7 +103,7 @@ struct Standards {
 
   std::optional<Truth> truth;
   bool of_rule;          // true if the truth is that of mysim's own contact rule
-  Method method;         // method whose run all other runs are compared with
+  Method method;         // all runs are compared with the run of this method
   Trajectory reference;  // empty if that run failed
   Growth growing;
   double motion = 0;  // m

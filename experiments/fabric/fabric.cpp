@@ -144,7 +144,7 @@ void add_drape(Table& table, const Drape& drape) {
                            nodes_of(drape.disc, drape.rest), drape_coefficient(drape.disc, drape.rest), drape.energy});
 }
 
-/// Searches a rest from several starts on a coarse net, and follows the lowest one to finer nets.
+/// Searches for a state of rest from several starts on a coarse net, and follows the lowest one to finer nets.
 void drapes(TableSet& tables, int finest, int most_waves, unsigned random_starts) {
   Table table = table_of<DrapedDiscRow>(), shape = table_of<DrapedParticleRow>();
   std::vector<Drape> found;

@@ -22,8 +22,9 @@ ClampedStrip continuum_of(const StripNet& net);
 constexpr double strip_density = 0.2;  // kg/m^2
 constexpr double strip_length = 0.2;   // m
 
-/// Particles are at the middle of cells with equal mass. Two columns of pins are level with the clamp, half a cell
-/// before and half a cell after it. The springs extend by a millionth of the length under the weight and the load.
+/// The scene of the strip. Particles are at the middle of cells with equal mass. Two columns of pins are level with the
+/// clamp, half a cell before and half a cell after it. The springs extend by a millionth of the length under the weight
+/// and the load.
 Scene strip_scene(const StripNet& net);
 
 /// Depth of the tip below the clamp divided by the length. Extrapolated by half a cell from the last two particles.

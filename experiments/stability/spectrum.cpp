@@ -199,7 +199,7 @@ std::optional<State> converged_rest(const Scene& scene) {
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;
-    // the shift from zero prevents that a free motion makes the matrix singular
+    // shifts the matrix, so that a free motion does not make it singular
     for (int i = 0; i < l.size(); ++i) k.coeffRef(i, i) += 1e-9 * stiffest;
     const Eigen::SimplicialLDLT<Sparse> solver(k);
     if (solver.info() != Eigen::Success) return std::nullopt;

@@ -47,7 +47,7 @@ Table single_links(bool full, double h) {
   if (full) shares = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9};
   for (const int n : {1, 4, 10})
     for (const double kLST : shares) {
-      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to within three digits
+      if (std::pow(1 - kLST, -n) > 2000) continue;  // such a link is rigid to three digits
       const double mass = 1, k = bullet::newton_per_metre(kLST, mass, h, n), K = k * h * h / mass,
                    g = 1e-4 * k / mass / (1 + K);
       // the remainder after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
