@@ -116,7 +116,7 @@ TEST(Grids, AnotherResolutionIsTheSameCloth) {
       EXPECT_EQ(std::max(g.nu, g.nv), n);
       EXPECT_NEAR(double(g.nu - 1) / (g.nv - 1), double(grid.nu - 1) / (grid.nv - 1), 0.2);
       EXPECT_NEAR(other.model.particles.mass.sum(), scene.model.particles.mass.sum(), 1e-12);
-      // same bounding box, and pins on the same part of the material
+      // the bounding boxes are equal, and the pins are on the same part of the material
       EXPECT_TRUE(other.start.x.rowwise().minCoeff().isApprox(scene.start.x.rowwise().minCoeff(), 1e-12));
       const auto span = [](const Scene& s) {
         const Points& home = s.model.particles.pin_home;

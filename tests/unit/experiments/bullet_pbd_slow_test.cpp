@@ -56,7 +56,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
     EXPECT_GT(at_smallest, 1e-4);     // but above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, a quarter at half the step
+    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, which is a quarter at half the step
   }
 }
 

@@ -178,7 +178,7 @@ TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
     };
     EXPECT_EQ(mark(find_method("xpbd"), 1e9), RelationMark::known);
     EXPECT_EQ(mark(find_method("xpbd"), 2), RelationMark::broken);
-    // a table about the rule does not excuse an engine of that name which follows another rule
+    // a table that names a rule does not excuse an engine whose name suggests this rule, but which follows another one
     Method other = with_defect("leapfrog", [](Scene& s, const crosscheck::Run&) { springs_in(s)[0].k *= 1.01; });
     other.name = "mysim/xpbd";
     EXPECT_EQ(mark(other, 1e15), known[0].rule.empty() ? RelationMark::known : RelationMark::broken);

@@ -33,7 +33,7 @@ TEST(TriangleDepth, NoPointOfTheTriangleIsNearer) {
     for (int i = 0; i <= 60; ++i)
       for (int j = 0; i + j <= 60; ++j) best = std::min(best, (a + i / 60. * (b - a) + j / 60. * (c - a) - p).norm());
     EXPECT_LE(found, best + 8 * eps) << seed;
-    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // the mesh for sides of up to 2 sqrt(3) has this width
+    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // width of the mesh, for sides up to 2 sqrt(3)
   }
 }
 

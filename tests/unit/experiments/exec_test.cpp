@@ -160,7 +160,7 @@ TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
     EXPECT_EQ(a.outcome.remark, "it left a process behind, which was killed");
     const auto beats = std::filesystem::file_size(folder_ / "beats");
     EXPECT_GT(beats, 0u);
-    usleep(100000);  // process would write five times in this period
+    usleep(100000);  // in this time, the process would write five times
     EXPECT_EQ(std::filesystem::file_size(folder_ / "beats"), beats) << "the process is still alive";
   }
 }
@@ -457,7 +457,7 @@ TEST_F(ExecServer, LeavesNothingBehindAtTheTimeLimitAndWithItsMethod) {
     }
     const auto size = fs::file_size(beats);
     EXPECT_GT(size, 0u);
-    usleep(100000);  // process would write five times in this period
+    usleep(100000);  // in this time, the process would write five times
     EXPECT_EQ(fs::file_size(beats), size) << "the process is still alive";
   }
 }

@@ -229,7 +229,7 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());
-      // single precision rounds the initial state to 24 bits
+      // engines in single precision round the initial state to 24 bits
       const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
       EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }

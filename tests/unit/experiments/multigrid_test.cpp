@@ -250,8 +250,8 @@ TEST(ImplicitCloth, BeyondSinglePrecisionItIsSolvedAllTheSame) {
     p.linearise(Points::Zero(3, u.cols()), Curvature::clamped);
     p.apply(u, product);
     // The solver stops at 1e-12 of the right-hand side. Components of u may differ by a factor up to the condition
-    // number, so that A u itself has a rounding error of eps |A| |u|, where |A| <= inertia + 2 (sum of the stiffnesses
-    // of a particle's springs, 4 of each family in each direction).
+    // number, so that A u itself has a rounding error of eps |A| |u|. |A| is at most inertia plus twice the sum of the
+    // stiffnesses of a particle's springs, for which 8 springs of each family are assumed.
     const double inertia = p.inertia().maxCoeff(), size = inertia + 2 * 8 * 620 * stiffer;
     EXPECT_LE((product + g).norm(), 1e-11 * g.norm() + 10 * eps * size * u.norm()) << stiffer;
     EXPECT_GT(u.norm(), 0);

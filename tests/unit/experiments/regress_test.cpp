@@ -76,7 +76,7 @@ TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
       ++all;
       const bool beyond = e.what.derivation.ends_with("beyond prediction");
       unpredictable += beyond;
-      // explicit Euler gains energy, and therefore amplifies perturbations more than the scene does
+      // explicit Euler gains energy, and amplifies perturbations more than the scene does
       if (beyond && (!e.without.empty() || e.method == "mysim/explicit-euler")) continue;
       if (e.method.starts_with("bullet32/")) continue;  // quantities near zero have large relative rounding errors
       if (e.what.quantity.name == time_of_failure) {  // known to within a sample; with a ball, to within a few samples

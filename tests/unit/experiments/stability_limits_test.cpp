@@ -315,8 +315,8 @@ TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
 }
 
 TEST(Outlook, TellsSmallMarginsAndCertainGrowth) {
-  // If the springs are stretched, they resist motion across, too. At rest, omega^2 = 2 k / m along the springs, and no
-  // stretch gives more.
+  // Springs that are stretched far act across their lines, too, so that `far` has the smallest limit. The warning
+  // begins within a tenth of this limit.
   const Scene net = with_grid("cloth-hang", 5);
   Scene free = net;
   std::erase_if(free.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });

@@ -218,7 +218,8 @@ TEST(Units, ChangeNoVerdict) {
         for (const Units& u : units_by({0x1p10, 0x1p20}, 1, seed++)) {
           const MethodRun there = run_in(kind, u, method, step);
           SCOPED_TRACE(fmt::format("{} {} {} {:a} {:a} {:a}", kind.name, method, step, u.length, u.mass, u.time));
-          // Floating-point overflow does not depend on units, so that squares overflow one step earlier in some units.
+          // The largest floating-point number is the same in all units, so that squares overflow one step earlier in
+          // some of them.
           const auto blew_up = [](Verdict v) { return v == Verdict::energy || v == Verdict::nan; };
           if (there.outcome.verdict != here.outcome.verdict && blew_up(there.outcome.verdict) &&
               blew_up(here.outcome.verdict)) {

@@ -179,7 +179,7 @@ class UnstoppedRun : public Observer {
   }
   double largest_ratio() const { return all_.largest_ratio(); }
 
-  double stretch = 0, speed = 0;  // largest values: spring length over rest length [1], and speed of a particle (m/s)
+  double stretch = 0, speed = 0;  // largest ratio of spring length to rest length; largest speed of a particle, m/s
   long left = 0;                  // first step beyond one of the bounds; 0 if there is none
   Verdict by_all = Verdict::ok, by_pairs = Verdict::ok;
   long when_all = 0, when_pairs = 0;  // steps of these verdicts
