@@ -455,7 +455,7 @@ TEST(SphereFindings, AfterContactEnginesAreStatedWithTheDifferencesOfOwnRules) {
   EXPECT_EQ(f.scene, "drape");
   EXPECT_EQ(f.other, "bullet/deformable-explicit");
   EXPECT_EQ(f.value, 2.97e-3) << "the value at the end, not the maximum";
-  EXPECT_TRUE(says(sentence_of(f), {"drape", "500 ms", "3 mm", "0.2 mm", "compared: 2"}));
+  EXPECT_TRUE(says(sentence_of(f), {"drape", "500 ms", "3 mm", "other 2 stable rules", "0.2 mm"}));
   // unpredictable motion makes both differences large
   EXPECT_TRUE(
       says(sentence_of(the(contact_findings(rows_of(touched(0.2, 0.3))), "after-contact")), {"300 mm", "200 mm"}));

@@ -434,7 +434,8 @@ TEST_F(Answers, OnContactCountTheCasesOnPlanesBesideThoseOnBalls) {
   expect_short({ball});
   EXPECT_EQ(ball.rule, "answer-ball.planes");
   EXPECT_EQ(ball.value, 72);
-  EXPECT_TRUE(says(sentence_of(ball), {"of 72 on balls/planes: mysim 72/72", "explicit 36/-", "pbd 36/31", "then 2.8"}))
+  EXPECT_TRUE(
+      says(sentence_of(ball), {"Of 72 cases on balls/planes", "mysim 72/72", "explicit 36/-", "pbd 36/31", "then 2.8"}))
       << sentence_of(ball);
 }
 
@@ -650,7 +651,7 @@ TEST(PlaneFindings, ReadTheRepresentativeAtAMillisecondAndWhatIsNotAtRest) {
   EXPECT_NEAR(all[0].value, 4, 1e-9);
   EXPECT_TRUE(says(sentence_of(all[0]), {"1 ms", "4 %", "0.3 %", "Bullet has no restitution"})) << sentence_of(all[0]);
   EXPECT_EQ(all[1].value, 0);
-  EXPECT_TRUE(says(sentence_of(all[1]), {"mysim loses 0 %", "explicit-euler is at rest in 50 %"}))
+  EXPECT_TRUE(says(sentence_of(all[1]), {"mysim loses 0 %", "explicit-euler is at rest in only 50 %"}))
       << sentence_of(all[1]);
   row(PlaneProbe::loss, "mysim/rk4", 1e-3, 1e-3, 0);
   EXPECT_NEAR(plane_findings(only(t)).at(1).value, 0.1, 1e-12);
