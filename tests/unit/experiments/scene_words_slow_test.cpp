@@ -102,13 +102,13 @@ struct ClaimedNumber {
   double (*value)(const Scene&);
 };
 const ClaimedNumber claims[] = {
-    {"projectile", "Thrown at {} m/s", [](const Scene& s) { return s.start.v.col(0).norm(); }},
-    {"projectile", "it rises {} m", rise_of},
+    {"projectile", "is thrown at {} m/s", [](const Scene& s) { return s.start.v.col(0).norm(); }},
+    {"projectile", "It rises {} m", rise_of},
     {"slide", "it flies off at {} degrees", leaving_angle},
-    {"pendulum", "it swings in {} s", swing_of},
-    {"pendulum", "on a rigid rod it would in {} s",
+    {"pendulum", "swings with a period of {} s", swing_of},
+    {"pendulum", "({} s on a rigid rod",
      [](const Scene& s) { return rigid_pendulum_period(s.model.find<Springs>()->list[0].rest, 9.81, 60 * degree); }},
-    {"pendulum", "let go at {} degrees",
+    {"pendulum", "released at {} degrees",
      [](const Scene& s) {
        const Vec3 off = s.start.x.col(1) - s.start.x.col(0);
        return std::acos(-off.y() / off.norm()) / degree;
@@ -117,7 +117,7 @@ const ClaimedNumber claims[] = {
     {"pendulum", "h omega is {},", [](const Scene& s) { return s.step * omega_of(s); }},
     {"spring", "100 N/m: {} rad/s", omega_of},
     {"spring", "period {} s", [](const Scene& s) { return 2 * std::numbers::pi / omega_of(s); }},
-    {"spring", "It starts {} m above",
+    {"spring", "mass starts {} m above",
      [](const Scene& s) { return s.model.find<Springs>()->list[0].rest + s.start.x(1, 1) - s.start.x(1, 0); }},
     {"spring", "h omega = {}", [](const Scene& s) { return s.step * omega_of(s); }},
     {"normal-modes", "start with {} and 5 mm",
@@ -140,7 +140,7 @@ const ClaimedNumber claims[] = {
          third += (s.start.x(0, i) - i * apart) * std::sin(3 * std::numbers::pi * i / 9) / 4.5;
        return 1e3 * third;
      }},
-    {"bounce", "each impact, {}-fold in the first second", [](const Scene& s) { return growth_of_window(s, 1); }},
+    {"bounce", "each impact: {}-fold in the first second", [](const Scene& s) { return growth_of_window(s, 1); }},
     {"cloth-hang", "s, {} of the limit 2 / omega_max", part_of_limit},
     {"cloth-small", "s, {} of the limit 2 / omega_max", part_of_limit},
     {"cloth-sphere", "s, {} of the limit 2 / omega_max", part_of_limit},
@@ -154,8 +154,8 @@ const ClaimedNumber claims[] = {
      }},
     {"cloth-carried", "every {} s",
      [](const Scene& s) { return 1 / s.model.find<Spheres>()->list[0].motion->frequency; }},
-    {"cloth-carried", "It speeds up by {} m/s^2", largest_acceleration},
-    {"cloth-carried", "can hold against {}.",
+    {"cloth-carried", "accelerates by {} m/s^2", largest_acceleration},
+    {"cloth-carried", "can hold the cloth up to {} m/s^2",
      [](const Scene& s) { return s.model.find<Spheres>()->list[0].friction * 9.81; }},
     {"cloth-stiff", "steps of {} microseconds", [](const Scene& s) { return 1e6 * 2 / omega_of(s); }},
     {"cloth-stiff", "The step of 1/{} s", [](const Scene& s) { return 1 / s.step; }},
@@ -164,7 +164,7 @@ const ClaimedNumber claims[] = {
        const Vec3 down = s.start.x.col(s.start.x.cols() - 1) - s.start.x.col(9);
        return std::atan2(down.z(), -down.y()) / degree;
      }},
-    {"cloth-inextensible", "let go at {} degrees",
+    {"cloth-inextensible", "released at {} degrees",
      [](const Scene& s) {
        const Vec3 down = s.start.x.col(s.start.x.cols() - 1) - s.start.x.col(7);
        return std::atan2(down.z(), -down.y()) / degree;
@@ -179,9 +179,9 @@ const ClaimedNumber claims[] = {
      [](const Scene& s) { return Elastica(strip_of(s)).tip().drop / strip_of(s).length; }},
     {"cloth-student", "particles of {} kg", [](const Scene& s) { return s.model.particles.mass[9]; }},
     {"cloth-student", "wave turns by {} rad", [](const Scene& s) { return s.step * omega_of(s); }},
-    {"cloth-student", "a step {} times shorter, explicit",
-     [](const Scene& s) { return times_shorter("trapezoidal", s); }},
-    {"cloth-student", "one {} times shorter", [](const Scene& s) { return times_shorter("explicit-euler", s); }},
+    {"cloth-student", "a step {} times shorter, and", [](const Scene& s) { return times_shorter("trapezoidal", s); }},
+    {"cloth-student", "Euler a step {} times shorter",
+     [](const Scene& s) { return times_shorter("explicit-euler", s); }},
     {"flag", "a wind of {} m/s", [](const Scene& s) { return s.model.find<Aerodynamics>()->velocity.mean.norm(); }},
     {"jelly", "dropped by {} m",
      [](const Scene& s) {
