@@ -75,7 +75,7 @@ std::string friction_effect(const std::vector<Series>& all) {
 }
 
 std::string stiffness_effect(const std::vector<Series>& all) {
-  std::string text = fmt::format("Asked: a sag of {:.2f} mm.", all[0].last());
+  std::string text = fmt::format("The sag should be {:.2f} mm.", all[0].last());
   for (size_t i = 1; i < all.size(); ++i)
     text += fmt::format("{} {:.2f} mm with {}", i == 1 ? " Found:" : ",", all[i].last(), all[i].variant.label);
   return text + ".";
@@ -89,15 +89,15 @@ std::string law_effect(const std::vector<Series>& all) {
 }
 
 std::string freeze_effect(const std::vector<Series>& all) {
-  return fmt::format("With projection the mass swings to {:.2f} m; without it the run is {} at {:.4f} m.",
+  return fmt::format("With projection the mass swings to {:.2f} m; without projection the run is {} at {:.4f} m.",
                      largest(all[1]), name_of(all[2].outcome.verdict), all[2].last());
 }
 
 std::string hessian_effect(const std::vector<Series>& all) {
   const Series& shipped = all[2];
   return fmt::format(
-      "From {:.0f} J at the start Bullet's own force makes {:.2g} J and is stopped at {:.2g} s ({}); with the negative "
-      "part of the second derivatives left out {}.",
+      "With Bullet's own force the energy grows from {:.0f} J at the start to {:.2g} J, and the run is stopped at "
+      "{:.2g} s ({}). Without the negative part of the second derivatives, {}.",
       shipped.points[0].second, shipped.last(), shipped.outcome.end, in_words(shipped.outcome.verdict),
       all[1].last() < 1e-12 * shipped.points[0].second ? "the motion dies out"
                                                        : fmt::format("the energy ends at {:.2g} J", all[1].last()));
@@ -111,7 +111,8 @@ std::string rest_effect(const std::vector<Series>& all) {
     return (low + high) / 2;
   };
   return fmt::format(
-      "Asked: swings about {:.3f} m. Left to itself Bullet swings about {:.3f} m (explicit) and {:.3f} m "
+      "The length should oscillate about {:.3f} m. With Bullet's defaults it does so about {:.3f} m (explicit) and "
+      "{:.3f} m "
       "(position-based); the certificate stops such a comparison.",
       middle(all[0]), middle(all[1]), middle(all[2]));
 }
@@ -125,16 +126,17 @@ std::string wind_effect(const std::vector<Series>& all) {
     return fmt::format("not in {:.2g} s", s.points.back().first);
   };
   return fmt::format(
-      "Half the final speed, {:.2f} m/s, is reached {}; by Bullet's own wind {}, when rounding has grown into a "
-      "motion; "
-      "by forces added to Bullet's nodes {}.",
+      "In mysim half the final speed, {:.2f} m/s, is reached {}. With Bullet's own wind it is reached {}, when "
+      "rounding has grown into a motion, and with forces added to Bullet's nodes {}.",
       half, reached(all[0]), reached(all[1]), reached(all[2]));
 }
 
 std::string clamp_effect(const std::vector<Series>& all) {
   const auto& [t, way] = all[1].points.back();
-  return fmt::format("Thrown at 80 m/s it flies {:.1f} m in {:.2g} s; in Bullet with the default margin {:.1f} m.",
-                     all[0].last(), t, way);
+  return fmt::format(
+      "The particle is thrown at 80 m/s and flies {:.1f} m in {:.2g} s; in Bullet, with the default margin, it flies "
+      "{:.1f} m.",
+      all[0].last(), t, way);
 }
 
 std::string field_effect(const std::vector<Series>& all) {
@@ -145,8 +147,9 @@ std::string field_effect(const std::vector<Series>& all) {
 
 std::string direction_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "Sliding down from rest the particle moves up to {:.2g} mrad off the tangent, with a quarter of the step up to "
-      "{:.2g} mrad; with voxels of 20 mm {:.2g} mrad, with 1.25 mm {:.2g} mrad; in mysim {:.1g} mrad.",
+      "As the particle slides down from rest, its direction deviates from the tangent by up to {:.2g} mrad, and by up "
+      "to {:.2g} mrad with a quarter of the step. With voxels of 20 mm the deviation is {:.2g} mrad, with voxels of "
+      "1.25 mm {:.2g} mrad, and in mysim {:.1g} mrad.",
       largest_size(all[1]), largest_size(all[2]), largest_size(all[3]), largest_size(all[4]), largest_size(all[0]));
 }
 
@@ -166,13 +169,14 @@ TableWithSentence directions(const Disagreement& d) {
       sideways = std::max(sideways, 1e3 * std::abs(e.sideways));
     }
   return {table,
-          fmt::format("Let go at {:g} to {:g} degrees it is pushed off the normal by {:.2g} to {:.2g} mrad in the "
-                      "plane of gravity and by up to {:.2g} mrad sideways, extrapolated to a step of zero.",
-                      first, last, flatter_by, steeper_by, sideways)};
+          fmt::format(
+              "If the particle is released at {:g} to {:g} degrees, the push deviates from the normal by {:.2g} to "
+              "{:.2g} mrad in the plane of gravity and by up to {:.2g} mrad sideways, extrapolated to a step of zero.",
+              first, last, flatter_by, steeper_by, sideways)};
 }
 
 std::string hop_effect(const std::vector<Series>& all) {
-  return fmt::format("While it slides the particle leaves the surface by up to {:.2g} mm, in mysim by {:.2g} mm.",
+  return fmt::format("While the particle slides, it leaves the surface by up to {:.2g} mm; in mysim by {:.2g} mm.",
                      largest_size(all[1]), largest_size(all[0]));
 }
 
@@ -182,40 +186,41 @@ std::string precision_effect(const std::vector<Series>& all) {
   constexpr double length = 2;  // m, positions in the scene
   const double expected = 10 * 6e-8 * length * std::sqrt(static_cast<double>(all[2].outcome.steps));
   return fmt::format(
-      "From mysim, in double precision, Bullet parts by {:.1g} m in double and by {:.1g} m in single precision; the "
-      "rounding of 24 bits lets one expect up to {:.1g} m.",
+      "Bullet differs from mysim's run in double precision by {:.1g} m in double precision and by {:.1g} m in single "
+      "precision; rounding to 24 bits explains up to {:.1g} m.",
       largest(all[1]), largest(all[2]), expected);
 }
 
 std::string pieces_effect(const std::vector<Series>& all) {
   const Outcome &pieces = all[1].outcome, &joined = all[2].outcome;
   return fmt::format(
-      "In two pieces the program ({}) {} after {:.2g} s of CPU time, before it delivered anything; with the same "
-      "springs "
-      "joined by one of 1e-9 N/m it ends after {:.2g} s, and the motion is within {:.1g} m of what is asked.",
+      "With a network in two pieces, the program ({}) {} after {:.2g} s of CPU time, without any result. If a spring "
+      "of 1e-9 N/m joins the two pieces, the program ends after {:.2g} s, and the motion is within {:.1g} m of the "
+      "right one.",
       all[1].variant.method, pieces.verdict == Verdict::timeout ? "had not ended" : "ended", pieces.process_seconds,
       joined.process_seconds, most_apart(all[2], all[0]));
 }
 
 std::string one_stiffness_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "The second spring is stretched by up to {:.3g} mm where {:.3g} mm are asked, {:.1f} times as much: it has the "
-      "stiffness of the first, a tenth. As two stiffnesses of one force it is stretched by up to {:.3g} mm.",
+      "The second spring is stretched by up to {:.3g} mm instead of {:.3g} mm, {:.1f} times as much: it has the "
+      "stiffness of the first spring, a tenth of its own. If both stiffnesses belong to one force, it is stretched by "
+      "up to {:.3g} mm.",
       largest(all[1]), largest(all[0]), largest(all[1]) / largest(all[0]), largest(all[2]));
 }
 
 std::string gravity_factor_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "With twice the gravity and a factor of a half the particle falls {:.2f} m in {:.2g} s where {:.2f} m are asked; "
-      "in the deformable world {:.2f} m.",
+      "With twice the gravity and a factor of a half, the particle falls by {:.2f} m in {:.2g} s instead of {:.2f} m; "
+      "in the deformable world it falls by {:.2f} m.",
       all[1].last(), all[1].points.back().first, all[0].last(), all[2].last());
 }
 
 std::string unused_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "Ten times the stiffness takes the sag from {:.3g} to {:.3g} mm; in the position-based world it stays at {:.3g} "
-      "mm (change {:.1g}), in the deformable one it goes from {:.3g} to {:.3g} mm, where kLST from 1 to 0.01 changes "
-      "{:.1g} mm.",
+      "Ten times the stiffness should reduce the sag from {:.3g} to {:.3g} mm. In the position-based world the sag "
+      "stays at {:.3g} mm (change {:.1g}); in the deformable world it falls from {:.3g} to {:.3g} mm, whereas kLST of "
+      "0.01 instead of 1 changes it by {:.1g} mm.",
       all[0].last(), all[1].last(), all[2].last(), most_apart(all[3], all[2]), all[4].last(), all[5].last(),
       most_apart(all[6], all[4]));
 }
@@ -235,8 +240,8 @@ std::string over_relaxation_effect(const std::vector<Series>& all) {
 
 std::string small_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "A particle at rest on a ball of 10 mm is {:.2g} mm off with the default voxel and, pushed out, {:.3g} mm "
-      "off with the default margin after {:.2g} s; with both scaled like the ball {:.1g} mm.",
+      "A particle at rest on a ball of 10 mm is {:.2g} mm off with the default voxel. With the default margin it is "
+      "pushed out and is {:.3g} mm off after {:.2g} s; with both scaled like the ball it is {:.1g} mm off.",
       most_apart(all[1], all[0]), most_apart(all[2], all[0]), all[0].points.back().first, most_apart(all[3], all[0]));
 }
 
@@ -245,8 +250,8 @@ std::string sleeping_effect(const std::vector<Series>& all) {
   size_t still = points.size() - 1;
   while (still > 0 && points[still - 1].second == points.back().second) --still;
   return fmt::format(
-      "A swing of {:.2g} mm stands still from {:.3g} s on, at {:.2g} mm; with sleeping switched off it goes on, within "
-      "{:.1g} mm of what is asked.",
+      "A swing of {:.2g} mm stops at {:.3g} s, at {:.2g} mm. With sleeping switched off it continues, within {:.1g} mm "
+      "of the right motion.",
       largest(all[0]), points[still].first, points.back().second, most_apart(all[2], all[0]));
 }
 
