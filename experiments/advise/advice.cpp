@@ -82,7 +82,7 @@ void caveats_of(Advice& a, const Trial& t) {
     a.caveats.push_back("with contact this is a difference from the converged in-house contact rule, not an error");
   if (a.until < a.scene.duration * (1 - 1e-9))
     a.caveats.push_back(
-        fmt::format("the promise ends at {:.3g} s of {:.3g} s: single positions are not predictable after that",
+        fmt::format("the guarantee ends at {:.3g} s of {:.3g} s: single positions are not predictable after that",
                     a.until, a.scene.duration));
   if (t.limit && t.step > *t.limit)
     a.caveats.push_back(

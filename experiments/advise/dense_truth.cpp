@@ -47,7 +47,7 @@ int samples_at(const Scene& scene, double spacing) {
 
 Truth dense_truth_of(const Scene& dense) {
   auto truth = truth_of(dense, default_run(dense));
-  if (!truth) throw CannotGuarantee("no truth is known for the scene, so that nothing can be promised");
+  if (!truth) throw CannotGuarantee("no truth is known for the scene, so no advice can be guaranteed");
   return std::move(*truth);
 }
 

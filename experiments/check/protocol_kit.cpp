@@ -238,8 +238,9 @@ class Kit {
       const double off = (speeds[i].col(0) - right).norm(), allowed = 1.5 * g.norm() * grid.h;
       if (off <= allowed) continue;
       add(scene.name, "speeds", false, true,
-          fmt::format("frame {} is off by {:.3g} m/s, at most {:.3g} is a rule's: velocities in m/s at run.times", i,
-                      off, allowed),
+          fmt::format(
+              "frame {} is off by {:.3g} m/s, but a rule explains at most {:.3g}: write velocities in m/s at run.times",
+              i, off, allowed),
           answers);
       return;
     }
