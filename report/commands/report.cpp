@@ -234,7 +234,7 @@ void add_report(CLI::App& app, Invocation& call) {
   add_quick_and_full(report, options.full);
   report.add_option("--against", options.against, "an earlier report: the page lists the changes since then");
   report.add_option("--verify", options.verified,
-                    "DIR: only recomputes every finding of the report in DIR from its data");
+                    "DIR: recomputes every finding of the report in DIR from its data, and writes nothing");
   report.add_option("--from", options.from,
                     "DIR: rebuilds the page of the report in DIR from its data, and runs nothing");
 }
