@@ -132,7 +132,7 @@ class BwrapSandbox final : public Sandbox {
  public:
   std::string_view name() const override { return "bwrap"; }
   std::string_view says() const override {
-    return "no network, no files but the system's own, read only, its own /tmp, and no other process in sight.";
+    return "no network; of files only the system's, read-only, and a /tmp of its own; other processes are invisible.";
   }
 
   End run(const Job& job) const override {
@@ -179,8 +179,8 @@ class UidSandbox final : public Sandbox {
  public:
   std::string_view name() const override { return "uid"; }
   std::string_view says() const override {
-    return "each run is another user who reaches no folder of mode 0700 and no network, and of other processes no more "
-           "than how they were called; what is open to all on this machine it can read.";
+    return "each run has its own user, without access to the network and to folders of mode 0700. It sees the command "
+           "lines of other processes, and can read files that are open to everyone on this machine.";
   }
 
   End run(const Job& job) const override {
@@ -221,9 +221,9 @@ struct Row {
 constexpr Row sandboxes[] = {{"bwrap", bwrap_sandbox}, {"uid", uid_sandbox}};
 
 constexpr std::string_view no_sandbox_means =
-    "With --no-sandbox submissions run as you: they can read and change whatever you can, the tests and the results "
-    "among it, and use the network; only time, memory, processes and output stay limited. Do that for code you trust, "
-    "or in a virtual machine that you throw away.";
+    "With --no-sandbox submissions run as you: they can read and change whatever you can, including the tests and the "
+    "results, and use the network; only time, memory, processes and output are limited. Use it only for code that you "
+    "trust, or in a virtual machine that you delete afterwards.";
 
 /// On a machine under load even a shell takes seconds to start.
 constexpr Limits probe_limits{.wall = 60};
