@@ -123,8 +123,10 @@ struct PenetrationRow {
          "largest penetration depth of a particle, relative to the radius");
   COLUMN(OptionalNumber, triangles, "triangles", "%",
          "largest penetration depth of a triangle, relative to the radius");
-  COLUMN(OptionalNumber, particles_at_end, "particles at end", "%", "that depth of particles at the end");
-  COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "that depth of triangles at the end");
+  COLUMN(OptionalNumber, particles_at_end, "particles at end", "%",
+         "penetration depth of particles at the end, relative to the radius");
+  COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%",
+         "penetration depth of triangles at the end, relative to the radius");
 };
 
 struct DrapeTimeRow {

@@ -36,7 +36,8 @@ struct ContactAngleRow {
   COLUMN(double, angle, "angle", "rad", "position on the ball, measured from its top");
   COLUMN(double, in_plane, "in plane", "rad",
          "angle from the normal to the direction of the push, in the plane of gravity; positive: as if farther down");
-  COLUMN(double, sideways, "sideways", "rad", "that angle across the plane of gravity");
+  COLUMN(double, sideways, "sideways", "rad",
+         "angle from the normal to the direction of the push, across the plane of gravity");
   COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 

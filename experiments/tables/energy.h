@@ -63,7 +63,7 @@ struct EnergyRow {
          "largest absolute value of the residual, which is the change of the energy balance since the start");
   COLUMN(OptionalNumber, residual, "residual", "J", "residual at the end");
   COLUMN(OptionalNumber, drift, "drift", "J/s", "slope of the straight line through the residual");
-  COLUMN(OptionalNumber, oscillation, "oscillation", "J", "RMS deviation of the residual from that line");
+  COLUMN(OptionalNumber, oscillation, "oscillation", "J", "RMS deviation of the residual from this straight line");
   COLUMN(OptionalNumber, growth, "growth of the residual", "1",
          "log10 of the largest residual over that of the first tenth of the run; 1: it grows linearly with time");
   COLUMN(OptionalNumber, equivalent_drag, "equivalent drag", "1/s",

@@ -38,8 +38,8 @@ struct EngineRow {
   COLUMN(double, motion, "motion", "m", "largest RMS distance of the particles from their start");
   COLUMN(double, window, "window", "s", "time up to which single positions can be predicted, as stated by the scene");
   COLUMN(double, measured_window, "measured window", "s",
-         "that time as measured: until a perturbation of 1e-10 m has grown a thousandfold");
-  COLUMN(double, growth, "perturbation growth", "1", "growth factor of that perturbation in the window");
+         "measured time until a perturbation of 1e-10 m has grown a thousandfold");
+  COLUMN(double, growth, "perturbation growth", "1", "growth factor of a perturbation of 1e-10 m in the window");
   COLUMN(OptionalNumber, round_off_bound, "round-off bound", "m",
          "largest difference to expect between engines of the same rule, in the precision of this one; empty if single "
          "positions cannot be predicted");
