@@ -1,6 +1,6 @@
-// Mutants of every official solution must lose points at a test of the changed part; mutants/equivalent.txt justifies
-// those that cannot lose points. MUTANTS sets the number of mutants (default 40; 0 for all), MUTANTS_SEED (default 1)
-// selects them, and MUTANTS_SURVIVORS names a file to which all survivors are written.
+// Mutants of every official solution must lose points at a test of the changed part; test/mutants/equivalent.txt
+// justifies those that cannot lose points. MUTANTS sets the number of mutants (default 40; 0 for all), MUTANTS_SEED
+// (default 1) selects them, and MUTANTS_SURVIVORS names a file to which all survivors are written.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/parallel.h"
 #include "tests/coursework/grader/run.h"
-#include "tests/coursework/mutants/mutants.h"
 #include "tests/coursework/test/helpers.h"
+#include "tests/coursework/test/mutants/mutants.h"
 
 namespace coursework {
 namespace {
@@ -101,7 +101,7 @@ class Mutants : public testing::Test {
         }
       }
     }
-    equivalent_ = read_equivalents(folder_of_coursework() / "mutants" / "equivalent.txt");
+    equivalent_ = read_equivalents(folder_of_coursework() / "test/mutants/equivalent.txt");
   }
 
   bool argued(const Tried& one) const {

@@ -1,5 +1,5 @@
 // A tokeniser for the C++ of the solutions, and the mutation rules.
-#include "tests/coursework/mutants/mutants.h"
+#include "tests/coursework/test/mutants/mutants.h"
 
 #include <fmt/format.h>
 
