@@ -213,7 +213,7 @@ TEST(PythonSubmission, NamesFileLineAndValue) {
       {head + "    i = 3\n    return x[7 * i]\n", "i = 3"},
       {head + "    x + h * f(t, x)\n",
        "euler.py, line 1: TypeError: euler_step returned something unusable: expected numbers, got None"},
-      {head + "    return f(x, t)\n", "a value has 1 dimensions where 0 are right"},
+      {head + "    return f(x, t)\n", "a value has 1 dimensions; it must have 0"},
       {head + "    return (x\n", "euler.py cannot be imported: euler.py, line 2: SyntaxError"},
       {"import scipy.integrate\n" + head + "    return x\n", "euler.py imports scipy, which cannot be used"},
       {"def euler(f, t, x, h):\n    return x\n", "euler.py does not define the function euler_step"},
