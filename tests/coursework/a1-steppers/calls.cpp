@@ -1,4 +1,4 @@
-// Dispatches the assignment's calls to its parts, which answer the same ones.
+// Dispatches the assignment's calls to its parts. All three steppers answer the same calls.
 #include "calls.h"
 #include "calls_steppers.h"
 

@@ -1,11 +1,11 @@
-"""Calls of the steppers by check.py. The numbers are as in the C++ hand-out."""
+"""Calls of the steppers by check.py. The numbers are in the same order as in C++."""
 import math
 
 import numpy as np
 
 
 def answer(call, take, student, as_array):
-    """The numbers and arrays that the call gives."""
+    """Returns the answer to a call: numbers and arrays."""
     part, kind = call.split(".")
     step = student(part, part + "_step")
     n, steps, t, h = int(take()), int(take()), take(), take()

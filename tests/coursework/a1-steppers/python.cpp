@@ -1,4 +1,4 @@
-// The steppers when the student's part is in Python: PART is its number.
+// The steppers if the student's part is in Python. The macro PART is the index of this part.
 #include "../python/remote.h"
 #include "steppers.h"
 

@@ -14,12 +14,12 @@ struct Node {
 
 struct Stage {
   double time;                     // time of the call of f, in units of h after the start
-  std::vector<double> polynomial;  // state of the call for X' = A X: this polynomial in h A, times the initial X
+  std::vector<double> polynomial;  // coefficients of p: for X' = A X, f is called at the state p(h A) X_0
 };
 
 struct Rule {
   const char* part;
-  int order;                // for X' = A X a step multiplies by 1 + h A + ... + (h A)^order / order!
+  int order;                // for X' = A X a step multiplies X by 1 + h A + ... + (h A)^order / order!
   std::vector<Node> nodes;  // quadrature if f depends on t alone
   std::vector<Stage> stages;
 };

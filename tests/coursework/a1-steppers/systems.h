@@ -12,16 +12,16 @@ namespace coursework::a1 {
 
 using Eigen::VectorXd;
 
-/// x' = A x + b + c t in autonomous form: (x, t, 1)' = M (x, t, 1). An explicit Runge-Kutta rule whose stage times are
-/// the row sums of its stages advances t exactly, so both forms give the same result.
+/// x' = A x + b + c t in autonomous form: (x, t, 1)' = M (x, t, 1). An explicit Runge-Kutta rule advances t exactly if
+/// each stage time is the row sum of the stage's weights, so both forms give the same result.
 struct Linear {
   int n;
   Eigen::MatrixXd m;  // (n + 2) x (n + 2)
   Eigen::VectorXd z;  // n + 2: initial x, t, 1
 };
 
-/// Round-off bound: a step of n numbers takes fewer than 10 n + 40 sums and products in any style, each with an error
-/// of half an epsilon of numbers below `size`; the errors of steps add up.
+/// Round-off bound: a step of n numbers takes fewer than 10 n + 40 sums and products in any style. Each has an error of
+/// half an epsilon times `size`, a bound on the numbers. The errors of steps add up.
 inline double round_off(int n, int steps, double size) { return steps * (10 * n + 40) * 1.2e-16 * size; }
 
 inline std::string call(const Rule& rule, const char* what) { return std::string(rule.part) + "." + what; }
@@ -45,7 +45,7 @@ enum class Depends { on_state, on_state_and_time };
 inline Linear add_linear(Random& random, Depends depends, Numbers& in) {
   const int n = static_cast<int>(in[0]);
   Linear s{n, Eigen::MatrixXd::Zero(n + 2, n + 2), VectorXd::Ones(n + 2)};
-  // row sums of about 1 keep the states of 8 numbers as small as those of 1
+  // row sums of about 1, so that states of 8 numbers stay as small as states of a single number
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double scale = random.rounds() ? 1 : std::sqrt(n);

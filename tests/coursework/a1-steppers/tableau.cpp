@@ -9,7 +9,7 @@
 namespace coursework::a1 {
 namespace {
 
-constexpr double tolerance = 1e-9;  // sums of a dozen numbers below 10: 1e-14
+constexpr double tolerance = 1e-9;  // sums of a dozen numbers below 10 have rounding errors of about 1e-14
 
 struct Tableau {
   std::vector<double> times;           // one per call of f, in units of h after the start
@@ -68,8 +68,9 @@ bool taken(const std::string& part, const Ask& student, Steps& steps) {
   return true;
 }
 
-/// Weights of x and the first slopes in `sum`. For identical slopes only the sum of their weights can be determined; it
-/// is divided as in the right answer if it matches. Empty if `sum` is no such combination.
+/// Returns the weights of x and of the first `slopes` slopes in `sum`; empty if `sum` is no such combination. For
+/// identical slopes only the sum of their weights can be determined. It is divided as in the right answer if it equals
+/// the right sum.
 Numbers as_sum(const Steps& steps, std::size_t slopes, const Numbers& sum, const Numbers& right) {
   std::vector<Numbers> columns{steps.start};
   std::vector<std::size_t> used;
@@ -132,7 +133,7 @@ Looked tableau_text(const Texts& common, const std::string& part, const Ask& stu
   Numbers expected{1};
   expected.insert(expected.end(), right.b.begin(), right.b.end());
   const Numbers found = as_sum(steps, steps.calls, steps.result, expected);
-  // after a wrong state, sums of slopes may differ as well: report the states alone
+  // after a wrong state, the weights of the result may differ as well: then report only the states
   if (found.empty())
     add(common.fill("rule.no_result", sum_text(terms(steps.calls), expected, 1e-8)));
   else if (!same(found, expected))

@@ -26,7 +26,7 @@ std::vector<Case> one_step(Random& random) {
 template <Rule rule()>
 std::vector<Case> circle(Random& random) {
   std::vector<Case> cases;
-  // a typical step; one that is too large for accuracy; one beyond the limit of RK4, 2 sqrt 2
+  // three step sizes: typical, too large for accuracy, and beyond the stability limit of RK4 (2 sqrt 2)
   for (const auto& [angle, steps] : {std::pair{random.uniform(0.2, 0.4), 40}, std::pair{random.uniform(0.8, 1.2), 12},
                                      std::pair{random.uniform(2.9, 3.1), 5}}) {
     const double omega = random.uniform(0.5, 3);
@@ -129,7 +129,7 @@ double seasonal_growth(double x, double r, double w, double p, double from, doub
   return 1 / (1 + (1 / x - 1) * std::exp(-grown));
 }
 
-/// log2 of the largest error with h over the largest error with h/2, both over the whole run.
+/// Returns log2 of the ratio of two errors: the largest one with h and the largest one with h/2, over the whole run.
 Found observed_order(const Case& c, const Numbers& raw) {
   const int n = static_cast<int>(c.in[0]), steps = static_cast<int>(c.in[1]);
   if (static_cast<int>(raw.size()) != 2 * n * steps) return raw;  // reported as an answer of the wrong size

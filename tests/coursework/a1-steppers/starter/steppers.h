@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-/// The numbers X of a system at one moment. How many there are is the system's affair: 1, 2, 8, a thousand.
+/// The numbers X of a system at one moment. Their number depends on the system: 1, 2, 8, a thousand.
 using State = std::vector<double>;
 
 /// The right-hand side of X' = f(t, X): as many numbers as X has, each the rate at which that number changes.

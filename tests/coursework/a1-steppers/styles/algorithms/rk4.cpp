@@ -1,4 +1,4 @@
-// With the standard algorithms; the weights one after the other.
+// With the standard algorithms; adds the weighted slopes one after the other.
 #include <algorithm>
 
 #include "steppers.h"

@@ -1,4 +1,4 @@
-// Plain index loops, backwards, with nothing kept beside the result.
+// A plain backward index loop that stores nothing but the result.
 #include "steppers.h"
 
 State euler_step(const Derivative& f, double t, const State& x, double h) {

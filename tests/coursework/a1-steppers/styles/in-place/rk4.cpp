@@ -1,4 +1,4 @@
-// Two vectors that are written over and over: the stage, and the step so far.
+// Overwrites two vectors again and again: the stage, and the partial sum of the step.
 #include "steppers.h"
 
 State rk4_step(const Derivative& f, double t, const State& x, double h) {

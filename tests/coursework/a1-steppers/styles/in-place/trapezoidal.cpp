@@ -1,4 +1,4 @@
-// Built on Euler: two Euler steps on end, and the mean of where one began and where they landed.
+// Built on Euler: two successive Euler steps, and the mean of the first state and the last.
 #include "steppers.h"
 
 State trapezoidal_step(const Derivative& f, double t, const State& x, double h) {
