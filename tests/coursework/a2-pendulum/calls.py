@@ -1,4 +1,4 @@
-"""Calls of forces, derivatives and the step by check.py. The numbers are as in the C++ hand-out."""
+"""Calls of forces, derivatives and the step by check.py. The numbers are in the same order as in C++."""
 from types import SimpleNamespace
 
 import numpy as np
@@ -53,6 +53,6 @@ def steps(call, take, student, as_array):
 
 
 def answer(call, take, student, as_array):
-    """The numbers and arrays that the call gives."""
+    """Returns the answer to a call: numbers and arrays."""
     kinds = {"gravity": forces, "drag": forces, "spring": forces, "symplectic": steps}
     return kinds.get(call.split(".")[0], derivatives)(call, take, student, as_array)

@@ -13,7 +13,7 @@ State moved(const State& state, double h, const State& rate) {
   return there;
 }
 
-/// The derivative is the student's; the step is ours.
+/// The grader's RK4 step with the student's derivative.
 State rk4_step(const Pendulum& pendulum, const State& state, double h) {
   const auto f = [&](const State& at) {
     calling("pendulum_derivative");

@@ -1,5 +1,5 @@
 // Calls of spring_force. Input: the number of springs, then for each one: stiffness, rest, a (3), b (3).
-//   spring   two rows per spring: the force on the particle at a (3), that on the particle at b (3)
+//   spring   two rows per spring: the force (3) on the particle at a, then the force on the particle at b
 #include "calls_numbers.h"
 
 namespace coursework {

@@ -43,7 +43,7 @@ inline std::vector<Case> length_cases(Random& random) {
   return cases;
 }
 
-/// Sums of m a over the free particles, and of its moments about the fixed one.
+/// Sum of m a over the free particles, and sum of its moments about the fixed particle.
 inline Found total_force_and_moment(const Case& c, const Numbers& raw) {
   const std::size_t n = static_cast<std::size_t>(c.in[0]), state = 5 + n + 2 * (n - 1);
   if (raw.size() != 6 * n) return raw;
@@ -68,7 +68,7 @@ inline std::vector<Case> third_law_cases(Random& random) {
     const auto state = random_state(random, row);
     Case c = chain_case(row, state);
     c.columns = 3, c.row = "total", c.column = "total", c.expected.clear();
-    // n forces, with arms of up to n springs of 2 m
+    // sums of n forces, whose lever arms are at most n springs of 2 m
     c.tolerance = round_off(largest_acceleration) * 2 * static_cast<double>(n * n);
     const Vector d = state[1].x - state[0].x;
     Vector force = -row.stiffness[0] * (d.norm() - row.rest[0]) * d.normalized(), moment = Vector::Zero();
@@ -83,9 +83,9 @@ inline std::vector<Case> third_law_cases(Random& random) {
   return cases;
 }
 
-/// At rest, spring i is longer than its rest length by the weight below it over its stiffness. The second case
-/// displaces the last particle further down: only the last two particles feel it, along the line, by the last spring's
-/// stiffness times this displacement.
+/// In equilibrium, each spring is stretched by the weight below it, divided by its stiffness. The second case displaces
+/// the last particle further down. This changes only the forces on the last two particles, along the line, by the last
+/// spring's stiffness times the displacement.
 inline std::vector<Case> hanging_cases(Random& random) {
   const std::size_t n = 5;
   const Row row = random_row(random, n, Members::different);

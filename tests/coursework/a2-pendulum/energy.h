@@ -50,7 +50,7 @@ struct Row {
 
   std::size_t size() const { return mass.size(); }
 
-  /// Potential energy of springs and gravity (J), without the fixed particle's own.
+  /// Potential energy of springs and gravity (J), without the gravitational energy of the fixed particle.
   template <class Number>
   Number potential(const std::vector<Eigen::Matrix<Number, 3, 1>>& x) const {
     Number energy = 0;
@@ -107,8 +107,8 @@ inline void put(const std::vector<Motion>& state, Numbers& out) {
   for (const Motion& one : state) put(one.x, out), put(one.v, out);
 }
 
-/// Round-off bound: a force law takes fewer than 60 sums, products and roots, each with an error of half an epsilon of
-/// numbers below `size`.
+/// Round-off bound: a force law takes fewer than 60 sums, products and roots, each with an error of half an epsilon
+/// times `size`, a bound on the numbers.
 inline double round_off(double size) { return 60 * 1.2e-16 * size; }
 
 }  // namespace coursework::a2

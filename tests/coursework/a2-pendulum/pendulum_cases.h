@@ -60,9 +60,9 @@ inline Found path_and_energy(const Case& c, const Numbers& raw) {
   return reduced;
 }
 
-/// A swing in the x-y plane without drag under RK4, compared with the same rule on the energy's gradient. The energy is
-/// that of the start: per step RK4 dissipates (omega h)^6 / 72 of the spring energy; ten times that allows for the
-/// swing.
+/// A swing in the x-y plane without drag, advanced by RK4 and compared with RK4 on the energy's gradient. The expected
+/// energy is the initial one. RK4 dissipates (omega h)^6 / 72 of the spring energy per step; the tolerance is ten times
+/// that because of the swing.
 inline std::vector<Case> swing_cases(Random& random) {
   const std::size_t steps = 120;
   Row row;

@@ -23,7 +23,7 @@ inline Numbers chain_numbers(const Row& row) {
 /// Bound on accelerations (m/s^2): forces below 200 N over masses above 0.2 kg.
 inline constexpr double largest_acceleration = 1000;
 
-/// n particles with all forces; masses 1 and equal springs, or all different.
+/// n particles with all forces. Either all masses are 1 kg and all springs equal, or all are different.
 enum class Members { equal, different };
 inline Row random_row(Random& random, std::size_t n, Members members) {
   Row row;

@@ -1,4 +1,4 @@
-// Tests of symplectic Euler on systems of the grader.
+// Tests of symplectic Euler on the grader's own systems.
 #pragma once
 
 #include <cmath>
@@ -59,7 +59,7 @@ inline std::vector<Case> one_step_cases(Random& random) {
   return cases;
 }
 
-/// Free fall is a sum: v_k = v + k h g, x_k = x + k h v + h^2 g k (k + 1) / 2.
+/// Free fall in closed form: v_k = v + k h g, x_k = x + k h v + h^2 g k (k + 1) / 2.
 inline std::vector<Case> fall_cases(Random& random) {
   const int n = 2, steps = 30;
   const double h = random.uniform(0.02, 0.05);
@@ -89,7 +89,7 @@ inline std::vector<Case> oscillator_cases(Random& random) {
     const Vector sine = (x1 - x0 * std::cos(theta)) / std::sin(theta);
     const auto at = [&](int k) -> Vector { return x0 * std::cos(k * theta) + sine * std::sin(k * theta); };
     for (int k = 1; k <= steps; ++k) put(at(k), c.expected), put((at(k) - at(k - 1)) / h, c.expected);
-    // theta is off by epsilon / sin(theta), and h divides a difference
+    // rounding changes theta by epsilon / sin(theta), and velocities are differences divided by h
     c.tolerance = steps * round_off(100) / (h * std::sin(theta));
     c.plot_x = 0, c.plot_y = 3;
     cases.push_back(c);

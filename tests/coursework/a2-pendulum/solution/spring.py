@@ -1,4 +1,4 @@
-"""A spring: no force where its ends meet."""
+"""A spring, without force if its ends coincide."""
 import numpy as np
 
 

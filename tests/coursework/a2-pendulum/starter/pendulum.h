@@ -31,7 +31,7 @@ Vec3 gravity_force(double mass, const Vec3& g);
 Vec3 drag_force(double drag, const Vec3& v);
 
 /// Force (N) of a spring on the particle at `a`; the spring's other end is at `b`. With d = a - b and L = |d| it is
-/// -stiffness (L - rest) d / L. Where the ends meet there is no direction: zero.
+/// -stiffness (L - rest) d / L. If the ends coincide, the direction is undefined and the force is zero.
 Vec3 spring_force(const Vec3& a, const Vec3& b, double stiffness, double rest);
 
 struct Pendulum {
@@ -49,7 +49,7 @@ State pendulum_derivative(const Pendulum& pendulum, const State& state);
 struct Chain {
   Vec3 gravity;                   // g, m/s^2
   double drag;                    // of each particle, N s/m
-  std::vector<double> mass;       // n, kg; that of the fixed particle does not matter
+  std::vector<double> mass;       // n, kg; the fixed particle's mass does not matter
   std::vector<double> stiffness;  // n - 1, N/m: spring i joins particles i and i + 1
   std::vector<double> rest;       // n - 1, m
 };

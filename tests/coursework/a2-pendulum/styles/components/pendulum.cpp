@@ -1,4 +1,4 @@
-// Accelerations at once instead of forces.
+// Computes accelerations directly instead of forces.
 #include "pendulum.h"
 
 State pendulum_derivative(const Pendulum& p, const State& state) {

@@ -1,4 +1,4 @@
-// Component by component, with the direction from this end to the other one and a pull that is positive.
+// Component by component, with the direction from this end to the other end and a positive pull.
 #include "pendulum.h"
 
 Vec3 spring_force(const Vec3& a, const Vec3& b, double stiffness, double rest) {

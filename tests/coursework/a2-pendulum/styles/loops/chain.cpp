@@ -1,4 +1,5 @@
-// Each particle asks its two neighbours; no list of forces. Positions and velocities in arrays of their own.
+// Computes the springs of each particle from its two neighbours, without a list of forces. Positions and velocities are
+// in separate arrays.
 #include "pendulum.h"
 
 State chain_derivative(const Chain& chain, const State& state) {

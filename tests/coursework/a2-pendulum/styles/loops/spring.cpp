@@ -1,4 +1,4 @@
-// In three cases: stretched, shortened, neither.
+// Distinguishes three cases: stretched, shortened, neither.
 #include "pendulum.h"
 
 Vec3 spring_force(const Vec3& a, const Vec3& b, double stiffness, double rest) {

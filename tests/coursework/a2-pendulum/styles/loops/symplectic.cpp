@@ -1,4 +1,4 @@
-// A step as x + h (x' + h v'): the same numbers where x' = v.
+// Computes x + h (x' + h v'), which is the same if x' = v.
 #include "pendulum.h"
 
 State symplectic_step(const Derivative& f, const State& state, double h) {
