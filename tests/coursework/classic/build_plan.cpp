@@ -59,7 +59,7 @@ void BuildPlan::write_files() {
     const std::string last = base_name(name), flat = lower(last);
     if (const auto known = stubs.find(lower(name)); known != stubs.end() && (!his.count(flat) || flat != lower(name)))
       return "<" + known->second + ">";
-    // <time.h> in the presence of a file Time.h
+    // a system header such as <time.h>, even if the student has a file Time.h
     if (in_brackets && (fs::exists(fs::path("/usr/include") / name) || name.starts_with("sys/")))
       return "<" + name + ">";
     if (base.count(flat) && !his.count(flat)) left_to_the_course.push_back(flat);
@@ -85,7 +85,7 @@ void BuildPlan::write_files() {
     crosscheck::write_file(here / name, with_includes(content, lead));
     list(tokens_of(content), name, true);
   }
-  // a class defined by a macro, a typedef or an alias
+  // the class may be defined by a macro, a typedef or an alias
   for (const Role& role : roles())
     for (const std::string_view name : role.names)
       for (const auto& [path, words] : tokens_) {
@@ -122,7 +122,7 @@ void BuildPlan::plan_objects() {
                                  "gnu++14", {"-Dmain=main_of_the_student"}));
       objects_.back().file = path;
     }
-  // main.cpp last: nothing depends on it
+  // compiles main.cpp last, because nothing depends on it
   std::stable_partition(objects_.begin(), objects_.end(),
                         [](const BuildStep& step) { return !flat_name(step.file).starts_with("main."); });
   for (const auto& [owner, member] : {std::pair{"RK4", "takeStep"}, {"ParticleSystem", "ParticleSystem"}})
@@ -139,14 +139,14 @@ BuildStep BuildPlan::calls(const ClassInfo& of, bool stepper, const ClassInfo* c
   std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(of)), "-DSTUDENT_CLASS=" + of.full(),
                                    "-DOWN_PROCESS", "-I" + ours_.string(), "-I" + (ours_ / ".." / "check").string()};
   if (stepper) more.push_back("-DSTEPPER");
-  if (of.name == "SimpleSystem") more.push_back("-DFIELD");  // its only role; compiling all roles costs two seconds
+  if (of.name == "SimpleSystem") more.push_back("-DFIELD");  // the class's only role; compiling all roles costs 2 s
   if (chain)
     more.insert(more.end(),
                 {defined("STUDENT_CHAIN_HEADER", file_on_disk(*chain)), "-DSTUDENT_CHAIN=" + chain->full()});
-  // a class defined in a file that has a main of its own
+  // the class may be defined in a file that has its own main
   if (!is_header(of.file)) more.push_back("-Dmain=main_of_the_student");
   if (const ClassInfo* base = named(classes_, "ParticleSystem")) {
-    // a source that contains both has no include guard
+    // a source that contains both classes has no include guard, so it is included only once
     if (base->file != of.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(*base)));
     if (!base->scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + base->scope);
   }
@@ -182,7 +182,7 @@ bool BuildPlan::declare_drawing(const std::string& captured_output) const {
   const crosscheck::Pattern missing(
       ".*error: [^']*'((?:gl|glu|glut|glfw)[A-Z]\\w*|(?:GL|GLU|GLUT|GLFW)_[A-Z]\\w*)['( ].*");
   for (std::istringstream lines(captured_output); std::getline(lines, line);) {
-    // "'glFoo' was not declared in this scope", "use of undeclared identifier 'GL_FOO'"
+    // matches "'glFoo' was not declared in this scope" and "use of undeclared identifier 'GL_FOO'"
     const auto found = line.find("declared") == line.npos ? std::nullopt : missing.match(line);
     if (!found) continue;
     const std::string& word = (*found)[1];

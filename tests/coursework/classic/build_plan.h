@@ -14,7 +14,7 @@ namespace coursework::classic {
 struct BuildStep {
   std::vector<std::string> words;  // arguments after the program's name
   std::filesystem::path makes;
-  std::string file = {};  // the student's file that is compiled; empty: our code around the headers
+  std::string file = {};  // the student's file that is compiled; empty for our code around the headers
   bool archive = false;
   std::filesystem::path source = {};  // the compiled file; empty for archiving or linking
 };
@@ -31,11 +31,11 @@ class BuildPlan {
   const std::vector<BuildStep>& objects() const { return objects_; }
   /// The step to run next: an archive of the objects that were made.
   BuildStep archive() const;
-  /// Our calls of a class, and of a second one for the chain, compiled against the student's headers.
+  /// Compiles our calls of the class `of` (with the class `chain` for the chain's calls) against the student's headers.
   BuildStep calls(const ClassInfo& of, bool stepper, const ClassInfo* chain = nullptr) const;
   /// The step to run next: links the program. `child` is the object of tests/coursework/check/child_main.cpp.
   BuildStep link(const BuildStep& calls, const std::filesystem::path& child) const;
-  /// True if this file of the student's declares or defines the class.
+  /// True if the student's `file` declares or defines the class.
   bool concerns(const std::string& file, const ClassInfo& of) const;
   /// Declares the OpenGL names that the compiler reported as missing; returns false if there are none.
   bool declare_drawing(const std::string& captured_output) const;

@@ -1,5 +1,5 @@
-// The hand-out's calls, all parts in one program, under the starter's names; and the calls for its drawings: the
-// student's systems, advanced by the student's trapezoidal rule. In the grader each class has a program of its own
+// The hand-out's calls: all parts in one program, under the starter's names; and the calls for its drawings, which
+// advance the student's systems with the student's trapezoidal rule. In the grader each class has its own program
 // (base/class_calls.cpp).
 #include "calls.h"
 #include "TimeStepper.hpp"

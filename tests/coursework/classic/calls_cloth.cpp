@@ -1,5 +1,5 @@
-// The hand-out's calls of the cloth, in a separate file because the other headers may use the same names for other
-// things.
+// The hand-out's calls of the cloth, in a separate file because the other headers may define the same names
+// differently.
 #include "ClothSystem.h"
 #include "calls.h"
 #include "probe/roles.h"

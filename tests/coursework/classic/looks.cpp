@@ -1,5 +1,5 @@
-// Dispatch tables with one line for each column of the texts: the features to compare; and question and answer as text,
-// for the first wrong particle or spring.
+// Dispatch tables with one line for each column of the texts. They return the features to compare, and text that shows
+// question and answer for the first wrong particle or spring.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -86,7 +86,8 @@ std::string motion_shown(const Texts& own, const Findings& found) {
   return "";
 }
 
-/// The free particle with the smallest value of `on`; entries `first` to `last` determine which particles are free.
+/// The free particle with the smallest `on`. Columns `first` to `last` of its rows determine whether a particle is
+/// free.
 std::optional<std::size_t> least_of(const Findings& found, std::size_t first, std::size_t last,
                                     double (*on)(const Findings&, std::size_t)) {
   std::optional<std::size_t> least;
@@ -95,7 +96,7 @@ std::optional<std::size_t> least_of(const Findings& found, std::size_t first, st
   return least;
 }
 
-/// v' of each particle at x and at its mirror image, in the first of three draws.
+/// Shows v' of a particle at x and at its mirror image, in the first of three draws.
 std::string gravity_shown(const Texts& own, const Findings& found) {
   const auto i = least_of(found, 0, 1, gravity_on);
   if (!i) return "";
@@ -104,7 +105,7 @@ std::string gravity_shown(const Texts& own, const Findings& found) {
                   vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// The velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag.
+/// Shows the velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag.
 std::string drag_shown(const Texts& own, const Findings& found) {
   const auto i = least_of(found, 1, 3, drag_on);
   if (!i || found.n >= most_in_order) return "";
@@ -119,7 +120,8 @@ std::string drag_shown(const Texts& own, const Findings& found) {
   return text;
 }
 
-/// The first spring that does not contract, is not linear, has no rest length, or pulls differently at its other end.
+/// Shows the first spring that does not contract, is not linear, has no rest length, or pulls differently at its other
+/// end.
 std::string law_shown(const Texts& own, const Springs& s) {
   const auto told = [&](const Spring& one) {
     return own.fill("shown.spring", std::to_string(one.b), std::to_string(one.a), three_text(one.as_found.at),
@@ -141,7 +143,7 @@ std::string law_shown(const Texts& own, const Springs& s) {
 
 using Pairs = std::set<std::pair<int, int>>;
 
-/// The first three pairs as "(row, column) - (row, column)", and the total number.
+/// Shows the first three pairs as "(row, column) - (row, column)", and the total number.
 std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, const Pairs& pairs) {
   const auto place = [&](int i) {
     return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
@@ -152,7 +154,7 @@ std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, con
   return pairs.empty() ? "" : own.fill(key, std::to_string(pairs.size()), listed(first, "; "));
 }
 
-/// Springs of the family that are missing at both ends.
+/// Shows springs of the family that are missing at both ends.
 std::string missing_shown(const Texts& own, const Springs& s, const std::vector<Offset>& family) {
   const auto grid = grid_of(s);
   if (!grid) return "";
@@ -171,7 +173,7 @@ std::string missing_shown(const Texts& own, const Springs& s, const std::vector<
   return pairs_shown(own, "shown.missing", *grid, missing);
 }
 
-/// Springs that belong to no family.
+/// Shows springs that belong to no family.
 std::string others_shown(const Texts& own, const Springs& s) {
   const auto grid = grid_of(s);
   if (!grid) return "";

@@ -1,5 +1,5 @@
-// Extracts the features that a test compares from the recorded answers of a probe: the case names the column, and the
-// column the oracle. Shared by the grader and by the hand-out's `check`: standard library only.
+// Extracts the features that a test compares from the recorded answers of a probe. The case's column determines which
+// oracle computes them. Shared by the grader and by the hand-out's `check`: standard library only.
 #pragma once
 
 #include "tests/coursework/check/case.h"
@@ -12,8 +12,8 @@ namespace coursework::classic {
 /// calls that are not probes are returned unchanged. Throws std::logic_error if no oracle exists for the case's column.
 Found features(const Case& what, const Numbers& answers);
 
-/// Question and answer, in numbers, for the first wrong particle or spring; `own` are the assignment's texts. Empty if
-/// there is none to single out.
+/// Text with question and answer, in numbers, for the first wrong particle or spring; `own` are the assignment's texts.
+/// Empty if no single particle or spring is wrong.
 std::string shown(const Texts& own, const Case& what, const Numbers& answers);
 
 }  // namespace coursework::classic

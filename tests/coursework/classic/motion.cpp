@@ -1,5 +1,5 @@
-// Motions of the student's systems compared with the exact ones. Masses and lengths of a pendulum are the student's
-// choice, so the exact motion uses the values measured from the student's answers. For the hand-out's check.
+// Compares motions of the student's systems with the exact ones, for the hand-out's check. Masses and lengths of a
+// pendulum are the student's choice, so the exact motion uses the values measured from the student's answers.
 #include <cmath>
 #include <complex>
 
@@ -12,7 +12,7 @@ namespace {
 
 struct Pendulum {
   std::size_t bob = 1;           // the moving particle
-  Numbers anchor, first;         // m: position of the other particle, and the initial position of particle 1
+  Numbers anchor, first;         // m: position of the fixed particle, and initial position of particle 1
   double k = 0, rest = 0;        // 1/s^2 (stiffness by mass), m
   double gravity = 0, drag = 0;  // m/s^2, 1/s (drag by mass)
 };
@@ -43,7 +43,7 @@ bool read(Pendulum& p) {
   return p.k > 0 && p.rest > 0;
 }
 
-/// Released straight below the anchor, lower than the equilibrium position: a damped vertical vibration.
+/// The bob is released straight below the anchor, lower than the equilibrium position: a damped vertical vibration.
 bool bounce(Case& drawn, Numbers& got) {
   Pendulum p;
   if (!read(p)) return false;

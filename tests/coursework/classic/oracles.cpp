@@ -13,7 +13,8 @@ using Flags = std::vector<bool>;
 double dot(const Plain& a, const Plain& b) { return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2]; }
 int count(const Flags& flags) { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
 
-/// True if the particles in `odd` are anchors of an unusual kind: most particles are not, and none is held or tied.
+/// True if the particles in `odd` act as anchors of an unusual kind: they are at most half of the particles, and there
+/// are no ordinary anchors.
 bool few(const Flags& odd, const Flags& anchors) {
   return count(anchors) == 0 && 2 * static_cast<size_t>(count(odd)) <= odd.size();
 }
@@ -45,7 +46,7 @@ Features purity(const Findings& found) {
     kept += zero(change);
     something = something || !zero(f);
   }
-  // an evalF that is always zero uses no input
+  // if evalF is always zero, it uses no input and gets no points here
   return {found.per_entry, something ? share(again, all) : 0, something ? share(kept, all) : 0,
           something ? share(given, all) : 0};
 }
@@ -68,7 +69,8 @@ Features motion(const Findings& found, int wanted) {
     driven[i] = constant;
     right += stays || rests || follows;
   }
-  // if none is held: particles that hang on fixed points in space, otherwise those with a prescribed velocity
+  // without ordinary anchors, particles that hang on fixed points in space count as anchors, otherwise those with a
+  // prescribed velocity
   const bool any_tied = count(found.tied) > 0;
   if (few(any_tied ? found.tied : driven, anchors)) {
     if (!any_tied) right += count(driven);
@@ -88,10 +90,10 @@ double gravity_on(const Findings& found, size_t i) {
     for (int k = 0; k < 3; ++k) even[k] = -(double(a[k]) + mirrored[k]) / 2;
     // y is up; a few solutions use z
     const double here = std::abs(even[1]) < 1e-3 * std::abs(even[2]) ? even[2] : even[1];
-    // rounding error of springs that cancel in single precision
+    // below the rounding error of springs that cancel in single precision
     draws.push_back(std::abs(here) < 1e-5 * (length(a) + length(mirrored)) ? 0 : here);
   }
-  // an obstacle may affect one draw
+  // the median, because an obstacle may affect one draw
   std::sort(draws.begin(), draws.end());
   return draws[1];
 }
@@ -99,7 +101,7 @@ double gravity_on(const Findings& found, size_t i) {
 double drag_on(const Findings& found, size_t i) {
   const auto& [w, at_rest, once, twice] = found.row(i);
   const double rate = (dot(at_rest, w) - dot(once, w)) / dot(w, w);
-  // weaker than any value seen so far (0.03), and above the rounding error of stiff springs
+  // the threshold is below the smallest drag seen so far (0.03) and above the rounding error of stiff springs
   return std::abs(rate) > 1e-3 ? rate : 0;
 }
 
@@ -113,14 +115,14 @@ bool is_free(const Findings& found, size_t i, size_t first, size_t last) {
 Features gravity(const Findings& found) {
   std::vector<double> down;
   Flags anchors(found.n), weightless;
-  for (const bool with_tied : {false, true})  // a tie may be the only measurable spring
+  for (const bool with_tied : {false, true})  // tied particles only if no other particle is free
     for (size_t i = 0; i < found.n && (!with_tied || down.empty()); ++i) {
       anchors[i] = !is_free(found, i, 0, 1);
       if (anchors[i] || (found.tied[i] && !with_tied)) continue;
       down.push_back(gravity_on(found, i));
       weightless.push_back(down.back() == 0);
     }
-  // an anchor that something else releases later has no weight; another test checks whether it holds
+  // a particle that is anchored at first and released later may have no weight; another test checks the anchor
   if (few(weightless, anchors)) std::erase(down, 0.0);
   if (down.empty()) return {0, 0};
   const auto [low, high] = std::minmax_element(down.begin(), down.end());

@@ -12,8 +12,7 @@ struct Malformed : std::runtime_error {
   Malformed() : std::runtime_error("no record of answers") {}
 };
 
-/// Replays the answers of the record, each once. Whatever the record contains, allocations are limited by its remaining
-/// size.
+/// Replays each answer of the record once. Whatever the record contains, allocations are limited by its remaining size.
 class Recorded : public probe::Asker {
  public:
   explicit Recorded(const Numbers& record) : record_(record) {}

@@ -26,7 +26,7 @@ Springs springs_of(const probe::Findings& found) {
       if (!std::isfinite(spring.k) || !std::isfinite(spring.rest)) continue;
       const double foreseen = spring.k * (s[2] - spring.rest);
       const double size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-      // single precision with a dozen other springs leaves 1e-5; a law of another shape deviates by a tenth
+      // single precision with a dozen other springs causes errors of 1e-5; a nonlinear law deviates by a tenth
       spring.linear =
           std::abs(p[2] - foreseen) < 0.01 * size && std::max({across[0], across[1], across[2]}) < 0.01 * size;
     }
@@ -81,7 +81,7 @@ namespace {
 bool held(const Springs& s, int i) { return s.fixed[static_cast<std::size_t>(i)]; }
 bool was_moved(const Springs& s, int i) { return s.moved[static_cast<std::size_t>(i)]; }
 
-/// True if a spring between the two would be visible at a.
+/// True if moving b would show a spring between a and b at particle a.
 bool shows(const Springs& s, int a, int b) { return was_moved(s, b) && !held(s, a); }
 
 std::set<std::pair<int, int>> pairs_of(const Springs& s) {
@@ -144,9 +144,9 @@ Features spring_law(const Findings& found_here) {
     equal += back != by_pair.end() && std::abs(back->second->k - one.k) < 0.01 * std::abs(one.k) &&
              std::abs(back->second->rest - one.rest) < 0.01 * std::abs(one.rest) + 1e-4;
   }
-  // if all others are fixed, no pair can be observed from both ends
+  // if all other particles are fixed, no pair can be observed from both ends
   const Feature mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
-  // with a few large samples of a big cloth, some particles are not observed
+  // if a big cloth is probed with a few samples, some particles are not observed
   const bool seen = std::count(s.moved.begin(), s.moved.end(), true) == s.particles;
   return {seen ? share(joined, movable) : share(all > 0, 1), sign(plus, minus, all), share(linear, all),
           share(rest, all), mutual};
@@ -197,7 +197,7 @@ Features cloth_family(const Findings& found_here, const std::vector<Offset>& fam
       const int row = grid->row(i) + down, column = grid->column(i) + side;
       if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
       const int other = row * grid->columns + column;
-      // observed from both ends, or from one if the other is fixed
+      // a spring is observed from both ends, or from one end if the other is fixed
       const bool here = shows(s, i, other), beyond = shows(s, other, i);
       if (!here && !beyond) continue;
       ++expected;
@@ -244,8 +244,8 @@ Features cloth_lengths(const Findings& found_here) {
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0};
   const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
-  // rows and columns may be spaced differently, so each family is compared with its own direction. A missing diagonal
-  // has a test of its own
+  // rows and columns may be spaced differently, so each family is compared with the spring in its own direction.
+  // Another test detects a missing diagonal
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
   const double diagonal = std::hypot(row, column) / std::sqrt(2.0);
   const double one = ratio(rest_of(s, *grid, 1, 1), diagonal), other = ratio(rest_of(s, *grid, 1, -1), diagonal);

@@ -38,7 +38,7 @@ std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const 
   static const std::set<std::string> no_bases = {"public", "protected", "private", "virtual", "typename"};
   const auto at = [&](std::size_t i) { return i < tokens.size() ? tokens[i] : std::string(" "); };
   std::vector<ClassInfo> found;
-  std::vector<std::string> open;  // the scope that each open brace begins; empty: none
+  std::vector<std::string> open;  // for each open brace, the name of the scope that it begins, or an empty string
   std::string next;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i] == "{") {
@@ -100,7 +100,7 @@ namespace {
 
 bool same_name(std::string_view a, std::string_view b) { return lower(std::string(a)) == lower(std::string(b)); }
 
-/// The role with this name; null if none.
+/// The role with this name, or null.
 const Role* named_role(const std::string& name) {
   for (const Role& role : roles())
     for (const std::string_view known : role.names)
@@ -130,7 +130,8 @@ std::vector<Candidate> candidates(const ClassList& all, const Role& role,
   std::vector<Candidate> named, others;
   for (const ClassInfo& one : all) {
     if (says != wanted.end() && (one.name == says->second || one.full() == says->second)) return {{&one, true, true}};
-    // a pendulum of more particles is a chain, and a chain of two is a pendulum
+    // the roles of pendulum and chain may be swapped: a pendulum of more particles is a chain, and a chain of two a
+    // pendulum
     if (const Role* bears = named_role(one.name); bears == &role)
       named.push_back({&one, true, true});
     else if ((!bears || bears->part == role.part) && is_kind(all, one, role.stepper) && !same_name(one.name, "RK4"))
@@ -153,14 +154,15 @@ std::string stem(const std::string& path) {
   return name.substr(0, name.rfind('.'));
 }
 
-/// Rejects hidden files, and characters that a quoted name in an option or an include cannot contain.
+/// Returns false for hidden files, and for names with characters that a quoted name in an option or an include cannot
+/// contain.
 bool counts(const std::string& path) {
   return path[0] != '.' && path.find("/.") == path.npos && std::none_of(path.begin(), path.end(), [](char c) {
            return static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>';
          });
 }
 
-/// Folder of the hand-out's `check`, with a trailing slash, if it was handed in along with the rest.
+/// Folder of the hand-out's `check` with a trailing slash, if it was handed in too.
 std::string folder_of_check(const Files& files) {
   for (const auto& [path, content] : files)
     if (path.ends_with("check/check_main.cpp")) return path.substr(0, path.rfind('/') + 1);
@@ -200,13 +202,13 @@ Selection choose_files(const Files& all, const std::string& preferred) {
   Selection chosen;
   const std::string check = folder_of_check(all);
   std::vector<std::string> paths;
-  std::map<std::string, std::set<std::string>> owners;  // by source: the classes that it defines
+  std::map<std::string, std::set<std::string>> owners;  // source -> classes that it defines
   bool own_vecmath = false;
   for (const auto& [path, content] : all) {
     if (!counts(path) || path.starts_with(check)) continue;
     paths.push_back(path);
     if (is_source(path)) owners[path] = owners_in(content);
-    // the header alone suffices if it computes lengths itself
+    // the header alone suffices if it computes lengths itself with sqrt
     own_vecmath =
         own_vecmath || (stem(path) == "vector3f" && (is_source(path) || content.find("sqrt") != content.npos));
   }
@@ -227,10 +229,10 @@ Selection choose_files(const Files& all, const std::string& preferred) {
                       std::count(path.begin(), path.end(), '/'), path);
   };
   std::sort(paths.begin(), paths.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-  std::map<std::string, std::string> by_name, defined;  // flat name, or class -> path
+  std::map<std::string, std::string> by_name, defined;  // flat name -> path, class -> path
   for (const std::string& path : paths) {
     const std::string name = flat_name(path);
-    constexpr std::size_t longest = 200;  // byte; file systems take 255
+    constexpr std::size_t longest = 200;  // bytes; file systems accept 255
     if (name.size() > longest) {
       chosen.notes.push_back({"whole.name", {path.substr(0, 100) + "..."}});
       continue;
@@ -240,7 +242,7 @@ Selection choose_files(const Files& all, const std::string& preferred) {
       continue;
     }
     chosen.files[path] = all.at(path);
-    // sources of different names that define the same classes
+    // detects sources of different names that define the same classes
     std::string clash;
     bool needed = owners[path].empty();
     for (const std::string& owner : owners[path])

@@ -1,5 +1,5 @@
-// Reads C++ just enough to find the classes that a file declares, and lists the classes that may take each role, in the
-// order in which they are tried. Uses a tokeniser instead of regular expressions, because the text is untrusted.
+// Parses C++ just enough to find the classes that a file declares, and lists the classes that may take each role, in
+// the order in which they are tried. Uses a tokeniser instead of regular expressions, because the text is untrusted.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ using Files = std::map<std::string, std::string>;
 std::vector<std::string> tokens_of(const std::string& text);
 
 struct ClassInfo {
-  std::string name, scope;         // scope: namespaces and classes around it, as "a::b"; empty: none
+  std::string name, scope;         // scope: namespaces and classes around the class, as "a::b", or empty
   std::string file;                // path in the submission; flat name for a header of ours
   std::vector<std::string> bases;  // every name between ':' and '{', including template arguments
   bool ours = false;               // from a header that replaces one that the course provides
@@ -34,7 +34,7 @@ bool defines_member(const std::vector<std::string>& tokens, const std::string& o
 /// A role that a class can take in the tests of a part. The chain is tested with the pendulum.
 struct Role {
   std::string_view name;                // in grade.toml
-  std::string_view part;                // part whose program calls the class
+  std::string_view part;                // the part whose program calls the class
   bool stepper;                         // true: a time stepper; false: a particle system
   std::vector<std::string_view> names;  // known class names
 };
@@ -48,14 +48,14 @@ using ClassList = std::vector<ClassInfo>;
 
 struct Candidate {
   const ClassInfo* of;
-  bool named;   // it has the role's name, or the student's grade.toml names it: it takes the role even if it is wrong
-  bool likely;  // it is named, or has the name of the other role that is tested with this one
+  bool named;   // has the role's name, or the student's grade.toml names it: takes the role even if it is wrong
+  bool likely;  // named, or has the name of the other role that is tested with this one
 };
-/// Candidates in the order of trial: the class that `wanted` (role -> class) names, alone; otherwise the classes with
-/// the role's name, and then all others of the kind that do not have the name of a role of another part.
+/// Candidates in the order of trial. If `wanted` (role -> class) names a class, only this one; otherwise first the
+/// classes with the role's name, then all others of the same kind that do not have the name of a role of another part.
 std::vector<Candidate> candidates(const ClassList& all, const Role& role,
                                   const std::map<std::string, std::string>& wanted);
-/// The first class of this name; null if none.
+/// The first class of this name, or null.
 const ClassInfo* named(const ClassList& all, std::string_view name);
 /// True if the class derives from TimeStepper (`stepper`) or from ParticleSystem.
 bool is_kind(const ClassList& all, const ClassInfo& one, bool stepper);
@@ -66,13 +66,13 @@ bool is_header(const std::string& path);
 std::string flat_name(const std::string& path);
 
 struct Selection {
-  Files files;                      // no two of them have the same flat name
+  Files files;                      // flat names are unique
   std::vector<Remark> notes;        // on files that were left out
-  std::vector<std::string> others;  // folders and files with other versions, to prefer in further tries
+  std::vector<std::string> others;  // folders and files with other versions, which further tries should prefer
 };
-/// The files of read_submission() that count: nothing of the hand-out's check, and vecmath only if its sources were
-/// handed in. Of several versions, chooses the one below `preferred`, then non-backups, then sources named after their
-/// class, then the shallowest.
+/// Chooses the files of read_submission() to compile: none of the hand-out's check, and vecmath only if its sources
+/// were handed in. Of several versions, chooses the one below `preferred`, then non-backups, then sources named after
+/// their class, then the one in the fewest folders.
 Selection choose_files(const Files& all, const std::string& preferred = "");
 
 }  // namespace coursework::classic

@@ -1,4 +1,4 @@
-// The result of the pair probe as springs, and the particles as a grid.
+// The springs found by the pair probe, and the grid of the particles.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@ namespace coursework::classic {
 
 struct Spring {
   int a, b;        // moving b changes the pull on a
-  double k, rest;  // per mass of a; from the first two distances
-  bool linear;     // the third distance fits, and there is no transverse pull
-  bool measured;   // otherwise the last three members are meaningless
+  double k, rest;  // stiffness per mass of a, and rest length; from the first two distances
+  bool linear;     // the pull at the third distance fits, and there is no transverse pull
+  bool measured;   // otherwise k, rest and linear are meaningless
   probe::Pull as_found;
 };
 
@@ -25,7 +25,7 @@ struct Springs {
   std::vector<Spring> all;
 };
 
-/// Springs from the question "springs"; no particles if it returned nothing.
+/// Springs from the question "springs"; contains no particles if the probe returned nothing.
 Springs springs_of(const probe::Findings& found);
 
 struct Grid {
@@ -33,10 +33,10 @@ struct Grid {
   int row(int i) const { return i / columns; }
   int column(int i) const { return i % columns; }
 };
-/// True if a spring between the two would be structural, shear or flexion.
+/// True if a spring between a and b would be structural, shear or flexion.
 bool of_a_family(const Grid& grid, int a, int b);
-/// Grid of the particles by their initial positions, row by row; if they start in another shape, the grid that fits the
-/// springs best.
+/// Grid of the particles by their initial positions, row by row. If these form no grid, the grid that fits the springs
+/// best.
 std::optional<Grid> grid_of(const Springs& springs);
 
 }  // namespace coursework::classic

@@ -1,5 +1,5 @@
-// The classic assignment: the tests of each part, the expected features, and the formula of a stepper, recovered from a
-// step of a linear system.
+// Tests of the classic assignment's parts, the expected features, and the analysis that recovers a stepper's formula
+// from a step of a linear system.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -67,7 +67,7 @@ Numbers moved(const Numbers& x, double h, const Numbers& f) {
 template <bool trapezoidal>
 constexpr const char* path_of = trapezoidal ? "trapezoidal.path" : "euler.path";
 
-/// One step of a linear system is x + h A x, plus h^2/2 A A x for the trapezoidal rule; a system with squares
+/// A step of a linear system is x + h A x, plus h^2/2 A A x for the trapezoidal rule. A system with squares
 /// distinguishes rules with the same polynomial (such as the midpoint rule).
 template <bool trapezoidal>
 std::vector<Case> step(Random& random) {
@@ -76,7 +76,8 @@ std::vector<Case> step(Random& random) {
     const Own own = draw(random, q);
     const Numbers f0 = own.f(own.state), ahead = moved(own.state, own.h, f0);
     const Numbers half = moved(own.state, own.h / 2, f0);
-    // numbers below 10, about twenty roundings of 6e-8 each: 1e-5; the nearest wrong rule differs by 1e-2
+    // about twenty roundings, each 6e-8 of numbers below 10, cause errors of 1e-5; the nearest wrong rule differs by
+    // 1e-2
     cases.push_back({path_of<trapezoidal>, own.in(1), trapezoidal ? moved(half, own.h / 2, own.f(ahead)) : ahead, 3,
                      3e-5, "vector", "vector"});
   }
@@ -98,7 +99,7 @@ std::vector<Case> circle(Random& random) {
     z *= factor;
     expected.insert(expected.end(), {z.real(), z.imag(), own.state[2]});
   }
-  // fifty steps, each a few roundings of 6e-8 of a radius below 10
+  // fifty steps of a few roundings each; a rounding is 6e-8 of a radius below 10
   return {{path_of<trapezoidal>, own.in(steps), expected, 3, 2e-4, "step", "vector", 0, 1, h}};
 }
 
@@ -155,7 +156,8 @@ std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "fle
 std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", r, {1, 0, 1})}; }
 std::vector<Case> cloth_law(Random& r) { return {probe("cloth.springs", "law", r, {1, 1, 1, 1, 1})}; }
 std::vector<Case> cloth_lengths(Random& r) {
-  // 1.41 for sqrt 2 is off by 0.004, 1 % of a shear spring by 0.014; the rounding error of stiff springs is below 0.001
+  // sqrt 2 rounded to 1.41 differs by 0.004, a change of a shear spring by 1 % by 0.014; stiff springs cause rounding
+  // errors below 0.001
   return {probe("cloth.springs", "lengths", r, {std::sqrt(2.0), 2, 2}, 0.007)};
 }
 std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", r, {1, 1, 1})}; }
@@ -195,11 +197,12 @@ const Test tests[] = {
     {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
-/// Reports the terms of a stepper: in a whole program only the resulting state is visible, in single precision.
+/// Reports the terms of a stepper's formula. In a whole program only the resulting state is visible, in single
+/// precision.
 Looked look(const Texts& common, const std::string& part, const Ask& student) {
   if (part != "euler" && part != "trapezoidal") return {};
   Random random(31);
-  // three step sizes: terms differ in their order, and h^2 is no linear combination of h and 1
+  // three step sizes, so that the terms differ in their power of h, and h^2 is no linear combination of h and 1
   std::vector<Case> cases;
   std::vector<Numbers> columns(5);
   Own own{0, 0, 0.75, {}, Numbers(12)};
@@ -208,7 +211,7 @@ Looked look(const Texts& common, const std::string& part, const Ask& student) {
     own.h = h;
     for (double& x : own.state) x = single(random.uniform(-1.5, 1.5));
     const Numbers slope = own.f(own.state), bend = own.f(slope);
-    // the last two: a forgotten h, and a surplus one
+    // the last two terms stand for a missing and a surplus factor h
     const std::pair<double, const Numbers&> all[] = {
         {1, own.state}, {h, slope}, {h * h, bend}, {1, slope}, {h * h, slope}};
     for (std::size_t k = 0; k < 5; ++k)
@@ -230,7 +233,7 @@ Looked look(const Texts& common, const std::string& part, const Ask& student) {
   if (calls.how == How::answered && calls.got.size() == 1 && calls.got != asked)
     often = common.fill("rule.calls", with_digits(asked[0], 3), with_digits(calls.got[0], 3));
   const std::vector<NamedTerm> terms{{"x"}, {"h f(x)"}, {"h^2 f(f(x))"}, {"f(x)"}, {"h^2 f(x)"}};
-  // a step is about twenty roundings of 6e-8 of numbers below 10
+  // a step has about twenty rounding errors, each 6e-8 of numbers below 10
   constexpr double rounding = 3e-5, known = 1e-3;
   Numbers found = coefficients(columns, result, rounding);
   if (found.empty()) return {often, !often.empty()};

@@ -1,4 +1,4 @@
-// Runs a build plan in a sandbox, finds the parts in the whole program, and reports what is wrong.
+// Runs a build plan in a sandbox, finds the parts in the whole program, and reports errors.
 #include "tests/coursework/classic/whole_program.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,7 @@ namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
 
-// in place of the output of a compiler that was stopped, or not started for lack of time; or that needed too much
-// memory
+// replace the output of a compiler that was stopped or not started for lack of time, or ran out of memory
 constexpr std::string_view too_long = "the compiler did not come to an end in time";
 constexpr std::string_view too_much = "the compiler needed more memory than there is";
 
@@ -59,7 +58,7 @@ class StepRunner {
   /// Runs the step; returns its output, or an empty text if the file was made.
   std::string operator()(const BuildStep& step) {
     if (!tools_.cache || step.source.empty()) return run(step, step.makes);
-    // the command, the source and every header, but not the tree's own path
+    // the key contains the command, the source and every header, but not the tree's own path
     std::string said, key = headers_ +
                             fmt::format("{} {}", fmt::join(tools_.compiler, " "), fmt::join(step.words, " ")) +
                             content_of_file(step.source);
@@ -80,7 +79,7 @@ class StepRunner {
   std::string run(const BuildStep& step, const fs::path& makes) {
     std::vector<std::string> command = step.archive ? std::vector{tools_.ar.string()} : tools_.compiler;
     command.insert(command.end(), step.words.begin(), step.words.end());
-    // runs in a folder of its own: parallel steps do not interfere, and their output is preserved
+    // runs in a separate folder, so that parallel steps do not interfere and their output is preserved
     const fs::path work = tree_ / "work" / step.makes.filename(), made = work / step.makes.filename();
     fs::create_directories(work);
     show(work);
@@ -103,7 +102,7 @@ class StepRunner {
   const Toolchain& tools_;
   fs::path tree_;
   std::string headers_;
-  double more_ = 0;                // s of CPU time, for files built in addition to the parts
+  double more_ = 0;                // s of CPU time in addition to `seconds`, for classes that are compiled later
   std::atomic<double> spent_ = 0;  // s of CPU time of all calls so far
 };
 
@@ -126,13 +125,13 @@ Files files_below(const fs::path& folder) {
 
 namespace {
 
-constexpr std::size_t most_notes = 20, most_tried = 16;  // candidate classes for one role, a few seconds each
-constexpr int most_versions = 4;                         // complete copies that are tried
-/// Limits of a trial: the choice must not depend on the load of the machine.
+constexpr std::size_t most_notes = 20, most_tried = 16;  // limits on remarks and on classes tried per role
+constexpr int most_versions = 4;                         // complete versions of the program that are tried
+/// Limits of a trial. The wall-clock limit is large, because the choice must not depend on the load of the machine.
 constexpr Limits trial_limits{.cpu = 10, .wall = 600};
 
-/// Reason why there is no program around a class. `file`: the student's file that does not compile; empty if the
-/// failure is in our calls of the class.
+/// Reason why there is no program around a class. `file` is the student's file that does not compile, or empty if our
+/// calls of the class fail to compile.
 Remark remark_on(const ClassInfo& of, const std::string& file, const std::string& said) {
   const std::string name = base_name(file.empty() ? of.file : file);
   if (said == too_long) return {"build.time", {name}};
@@ -148,7 +147,7 @@ Remark remark_on(const ClassInfo& of, const std::string& file, const std::string
                                     : Remark{"whole.undefined", {missing}};
 }
 
-/// Assigns classes to roles. A class is built on first use.
+/// Assigns classes to roles. Compiles the calls of a class on first use.
 class Choice {
  public:
   struct Made {
@@ -170,8 +169,8 @@ class Choice {
       if (!all.empty()) first.emplace(all.front().of, role.stepper);
     }
     build(first);
-    // the only candidate, or the first that earns all points; otherwise the first of its name that can be built, the
-    // one that earns most, or the first, for its error message
+    // in order of preference: the only candidate or the first that earns all points; the first that has the role's name
+    // and can be built; the one that earns most points; the first likely one, for its error message
     for (const int wish : {0, 1, 2, 3})
       for (const Role& role : roles()) {
         const std::vector<Candidate>& all = open[role.name];
@@ -196,7 +195,7 @@ class Choice {
     return made_.at(of);
   }
 
-  /// Points earned in a role; with `all`, whether these are all points.
+  /// Points earned in a role; with `all`, 1 if these are all points, otherwise 0.
   int earned(const ClassInfo* of, const Role& role, bool all = false) {
     const auto [at, added] = earned_.try_emplace({of, role.name});
     if (added && trial_) {
@@ -214,13 +213,13 @@ class Choice {
     return one;
   }
 
-  /// The class in a role; null: none.
+  /// The class in a role, or null.
   const ClassInfo* in(std::string_view role) const {
     const auto at = chosen.find(role);
     return at == chosen.end() ? nullptr : at->second;
   }
 
-  std::map<std::string_view, const ClassInfo*> chosen;  // role -> class; no entry: no class
+  std::map<std::string_view, const ClassInfo*> chosen;  // role -> class; roles without a class have no entry
   std::set<const ClassInfo*> failed;                    // candidates that failed, for roles without a class
   bool tried = false;
 
@@ -236,7 +235,7 @@ class Choice {
     }
   }
 
-  /// True if another part uses the class.
+  /// True if the class already has a role of another part.
   bool taken(const ClassInfo* of, const Role& role) const {
     return std::any_of(chosen.begin(), chosen.end(),
                        [&](const auto& one) { return one.second == of && role_of(one.first).part != role.part; });
@@ -290,7 +289,7 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   const std::vector<BuildStep>& objects = plan.objects();
   std::vector<std::string> said(objects.size(), "not yet");
   std::string all_said;
-  constexpr int most_rounds = 3;  // declared names may let the compiler report further missing ones
+  constexpr int most_rounds = 3;  // a round may reveal further names to declare
   for (int round = 0; round == 0 || (round < most_rounds && plan.declare_drawing(all_said)); ++round) {
     parallel_for(said.size(), tools.jobs, [&](std::size_t i) {
       if (!said[i].empty()) said[i] = run(objects[i]);
@@ -305,7 +304,7 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   Programs made;
   made.notes = choice_told(plan.classes(), choice, wanted);
   const auto why = [&](const ClassInfo& one, const std::string& captured) {
-    // a file of the student's that does not compile explains more than errors that follow from it
+    // an error in a file of the student's explains more than the errors that follow from it
     for (std::size_t k = 0; k < said.size(); ++k)
       if (const std::string& file = objects[k].file; !said[k].empty() && !file.empty() && plan.concerns(file, one))
         return remark_on(one, file, said[k]);
@@ -319,7 +318,7 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
     if (!parts.empty() && std::find(parts.begin(), parts.end(), role.part) == parts.end()) continue;
     const ClassInfo* of = choice.in(role.name);
     if (rate && of) made.points += choice.earned(of, role);
-    if (role.name != role.part) continue;  // the chain, which the pendulum's program calls
+    if (role.name != role.part) continue;  // the pendulum's program also calls the chain
     Built& built = made.of[std::string(role.part)];
     if (!of) {
       built = {{}, {"whole.missing", {std::string(role.names.front())}}, true};
@@ -381,7 +380,7 @@ class WholeBuilder : public Builder {
     Files files;
     Programs programs = best_version(submission, folder, jobs, files);
     mend_base(submission, std::move(files), programs, folder, jobs);
-    // one part reports it for all; a longer list would not be read
+    // only the first part carries the remarks, and only as many as will be read
     programs.notes.resize(std::min(programs.notes.size(), most_notes));
     programs.of.begin()->second.notes = std::move(programs.notes);
     return std::move(programs.of);
@@ -405,8 +404,8 @@ class WholeBuilder : public Builder {
     return {command_, "/usr/bin/ar", child, cache, jobs};
   }
 
-  /// Builds the whole program with each version of duplicate files, until one passes all public tests; `files`: the
-  /// files of the best version.
+  /// Builds the whole program with each version of duplicate files, until one passes all public tests. `files` receives
+  /// the files of the best version.
   Programs best_version(const Submission& submission, const fs::path& folder, unsigned jobs, Files& files) const {
     int all_points = 0;
     for (const Test& test : assignment_.tests) all_points += test.points;
@@ -437,8 +436,7 @@ class WholeBuilder : public Builder {
       const std::vector<Answer> answers = run_calls(sandbox_, program, cases, trial_limits);
       bool right = true;
       for (std::size_t i = 0; i < cases.size(); ++i) {
-        if (answers[i].how == How::out_of_time)
-          return {earned.points, 1000};  // a program that is too slow is not run again
+        if (answers[i].how == How::out_of_time) return {earned.points, 1000};  // too slow: not run again
         right = right && judge(cases[i], reduced(test, cases[i], answers[i])).right;
       }
       earned.of += test.points, earned.points += right ? test.points : 0;
@@ -446,8 +444,8 @@ class WholeBuilder : public Builder {
     return earned;
   }
 
-  /// A base class that cannot be used alone, or that loses the state, is not the steppers' fault: replaces it by the
-  /// starter's, if the steppers compile with it.
+  /// If the student's base class cannot be used alone, or loses the state, the steppers must not lose points for it:
+  /// replaces the base class by the starter's, if the steppers compile with it.
   void mend_base(const Submission& submission, Files files, Programs& programs, const fs::path& folder,
                  unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};

@@ -16,17 +16,17 @@
 namespace coursework::classic {
 
 struct Programs {
-  std::map<std::string, Built> of;  // by part; `missing`: no class takes the part's role
+  std::map<std::string, Built> of;  // key: part; `missing`: no class takes the part's role
   std::vector<Remark> notes;        // on the choice of classes and files
-  std::string base_file;            // the student's file with the base class of all systems; empty: ours
-  int points = 0;                   // earned in the public tests; set if `rate` is
+  std::string base_file;            // the student's file with the base class of all systems; empty if it is ours
+  int points = 0;                   // earned in the public tests; set only if `rate`
 };
 
 struct Toolchain {
   std::vector<std::string> compiler;  // g++ and the options of every call; absolute path
   std::filesystem::path ar;           // absolute
   std::filesystem::path child;        // object of tests/coursework/check/child_main.cpp
-  const Compiler* cache = nullptr;    // keeps objects by content; null (untrusted code): no cache
+  const Compiler* cache = nullptr;    // caches objects by content; null for untrusted code
   unsigned jobs = 1;
   double seconds = 240;  // CPU time (s) of all calls together; later calls are not started
 };
@@ -34,7 +34,7 @@ struct Toolchain {
 /// Path of a part's solution within the folder of a solution: "TimeStepper.cpp".
 std::string file_of_part(const std::string& part);
 
-/// C++ files below a folder of ours.
+/// C++ files below one of our folders.
 Files files_below(const std::filesystem::path& folder);
 
 /// Points of a role's public tests.
@@ -44,10 +44,10 @@ struct Earned {
 /// Runs a program around one class in a role.
 using Trial = std::function<Earned(const std::filesystem::path& program, const Role& role)>;
 
-/// Compiles and links `parts` (all, if empty) of the files in `tree`, a folder that need not exist. The sandbox sees
+/// Compiles and links `parts` (all, if empty) of `files` in the folder `tree`, which need not exist. The sandbox sees
 /// only `tree`: our files that it needs are copied there, but neither solution nor tests. `coursework` is
-/// tests/coursework. If several classes could take a role, builds and tries them until one earns all points; `wanted`
-/// is the student's choice, by role. `rate`: try all chosen classes.
+/// tests/coursework. If several classes could take a role, builds and tries them until one earns all points. `wanted`
+/// maps roles to the classes that the student chose. `rate`: try all chosen classes.
 Programs build_programs(const Files& files, const std::filesystem::path& tree, const std::filesystem::path& coursework,
                         const Sandbox& sandbox, const Toolchain& tools, const std::vector<std::string>& parts = {},
                         const Trial& trial = nullptr, const std::map<std::string, std::string>& wanted = {},

@@ -1,7 +1,8 @@
-// Calls of one class of the student's in every role of its kind; the grader builds this file once for each class.
+// Calls of one of the student's classes in every role that it could have; the grader builds this file once for each
+// class.
 #include STUDENT_HEADER
 #ifdef PARTICLE_HEADER
-#include PARTICLE_HEADER  // the class's header may only declare ParticleSystem
+#include PARTICLE_HEADER  // the class's header may contain only a declaration of ParticleSystem
 #endif
 #ifdef STUDENT_CHAIN_HEADER
 #include STUDENT_CHAIN_HEADER

@@ -1,6 +1,6 @@
-// Parts that a course gives its students as a library. GIVEN is their header that declares them. RK4 is never tested,
-// so it need not step; the archive with this file is linked last, so that a student's own implementation takes
-// precedence.
+// Code that a course gives its students as a library. The macro GIVEN is the student's header that declares it. RK4 is
+// never tested, so it need not step. The archive with this file is linked last, so that a student's own implementation
+// takes precedence.
 #include GIVEN
 
 #ifdef GIVEN_RK4

@@ -1,4 +1,4 @@
-// Asks the student's system and records its answers; nothing else leaves this process.
+// Asks the student's system and records its answers; no other data leave this process.
 #pragma once
 
 #include <cstring>
@@ -42,8 +42,8 @@ class Ask : public Asker {
   }
 
   void record(const Plain& v) { record_.insert(record_.end(), v.at, v.at + 3); }
-  /// Records the number of entries and the number of differing ones, then each differing entry, after its index if any
-  /// entry is known.
+  /// Records the number of entries, the number of entries that differ from `known`, and then each differing entry,
+  /// preceded by its index unless `known` is empty.
   State told(const State& f, const State& known) {
     Indices differ;
     // compares bit by bit, so that the values read from the record are exactly f

@@ -1,5 +1,5 @@
-// Interface that answers the questions of forces.h: the student's system (ask.h), or, in the grader, its recorded
-// answers (replay.cpp). Both sides draw the questions independently, so a student's process can forge answers only.
+// Interface that answers the questions of forces.h: the student's system (ask.h) or, in the grader, its recorded
+// answers (replay.cpp). Both sides draw the questions independently, so a student's process can forge only answers.
 #pragma once
 
 #include <cmath>
@@ -39,10 +39,11 @@ class Asker {
   virtual void store(const State& state) = 0;
   /// Entries of the stored state.
   virtual Some stored(const Indices& which) = 0;
-  /// Evaluates evalF: a few entries; or all entries, given a known result that differs in few of them, or none.
+  /// Both evaluate evalF at `given`. some() returns a few entries. changed() returns all entries; `known` is an earlier
+  /// result that differs in few entries, or empty.
   virtual Some some(const State& given, const Indices& which) = 0;
   virtual State changed(const State& given, const State& known) = 0;
-  /// Ends the record. `drawn` is one more draw, unknown to answers that were recorded on another seed.
+  /// Ends the record. `drawn` is one more draw, which answers that were recorded with another seed cannot contain.
   virtual void end(float drawn) = 0;
 };
 

@@ -1,5 +1,5 @@
-// Random draws of a probe. The grader repeats them (replay.cpp): one draw after the other, in an order that no compiler
-// may change.
+// Random draws of a probe. The grader repeats them (replay.cpp), so each draw is a separate statement, whose order no
+// compiler may change.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class Draws {
     }
   }
 
-  /// Up to `most` of 0..count-1, in ascending order; all of them if count <= most.
+  /// Up to `most` of the indices 0..count-1, in ascending order; all of them if count <= most.
   Indices sample(std::size_t count, std::size_t most = 200) {
     Indices chosen;
     for (std::size_t i = 0; i < count; ++i)

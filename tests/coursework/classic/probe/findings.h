@@ -1,4 +1,4 @@
-// Answers to the questions of forces.h, for oracles.h to judge.
+// Answers to the questions of forces.h, which oracles.cpp judges.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace probe {
 struct Pull {
   std::size_t b, a;
   bool measured;                     // otherwise the other members are meaningless
-  float at[3], along[3], across[3];  // three distances, and at each the pull on a towards b, and across
+  float at[3], along[3], across[3];  // three distances; for each, the pull on a towards b, and the pull across
 };
 
 struct Findings {
@@ -25,10 +25,10 @@ struct Findings {
   std::size_t n = 0;       // rows of a draw: entries for purity, otherwise particles
   double per_entry = 0;    // purity: entries that evalF returns per entry of the state
   bool repeats = true;     // evalF is deterministic
-  std::vector<bool> tied;  // attached to something that is not a particle
+  std::vector<bool> tied;  // particles attached to something that is not a particle
   // only for the question "springs"
   State places;                           // initial positions
-  std::vector<bool> fixed, still, moved;  // immobile; at rest at the start, or always; pull was tested by moving them
+  std::vector<bool> fixed, still, moved;  // immobile; at rest at the start, or always; moved by the probe
   std::vector<Pull> pulls;
 
   bool empty() const { return rows.empty() && places.empty(); }

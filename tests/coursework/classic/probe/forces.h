@@ -52,8 +52,8 @@ class Forces {
   }
 
  private:
-  /// `from_there`: count changes relative to the state as it was stored, because a base class that loses the state
-  /// costs points elsewhere.
+  /// `from_there`: count changes relative to the state that was read back after storing it, because a base class that
+  /// loses the state costs points elsewhere.
   void purity(Findings& out, bool from_there) {
     const State stored = around(1), given = around(1);
     const Indices chosen = draws_.sample(start_.size());
@@ -81,13 +81,13 @@ class Forces {
 
   void gravity(Findings& out) {
     out.n = n_;
-    // the mirror is the other end of the tie, so that its pull is reflected like all others
+    // the mirror is the other end of a tie, so that the tie's pull is reflected like all others
     const Plain mirror = silent_.empty() ? far_ : home_[x(silent_.front())];
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(0);
       State mirrored = given;
       for (std::size_t i = 0; i < n_; ++i) {
-        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, as is the next line (away())
+        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, as is the next line (see away())
         mirrored[x(i)] = plus(mirror, -1, from);
       }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
@@ -110,7 +110,7 @@ class Forces {
       moved = w;
       const Plain f1 = pull(state, chosen[i]);
       moved = rest;
-      // drag by the own velocity alone does not feel that all others move
+      // a particle's drag depends only on its own velocity, so the motion of all others must not matter
       State all = state;
       for (std::size_t k = 0; k < n_; ++k) all[v(k)] = w;
       all[chosen[i]] = plus(w, 1, w);
@@ -148,8 +148,9 @@ class Forces {
     out.repeats = alike(f, derivative(state, f)) && pairs(state, f, chosen, out.pulls);
   }
 
-  /// Returns false if evalF is not deterministic. Particles are moved in an unpredictable order, and as often none is
-  /// moved, so that answers recorded on another seed do not fit, although springs join the same particles there.
+  /// Returns false if evalF is not deterministic. Moves particles in an unpredictable order, with as many evaluations
+  /// in between that move none, so that answers recorded with another seed do not fit, although the springs join the
+  /// same particles.
   bool pairs(State& state, const State& f, const Indices& chosen, std::vector<Pull>& found) {
     Indices order = chosen;
     order.resize(2 * chosen.size(), n_);
@@ -167,7 +168,7 @@ class Forces {
         if (a != b && !same(entry(f, v(a)), entry(g, v(a)))) affected.emplace_back(b, a);
       state[x(b)] = place;
     }
-    // measures some pairs of each kind, which the difference of the indices in the list identifies
+    // measures some pairs of each kind; the difference of the particles' indices identifies the kind
     for (const auto& [b, a] : affected) joined.emplace_back(std::max(a, b) - std::min(a, b), std::min(a, b));
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
@@ -199,9 +200,9 @@ class Forces {
     return true;
   }
 
-  /// Leaves b at an arbitrary position. For a tie of a to the position of b, moves all particles instead, which changes
-  /// the tie alone. `off`: the part of a's pull that is not reflected when a is on the other side, as for a tie to
-  /// another position.
+  /// Leaves b at an arbitrary position. If a is tied to the position of b, moves all particles instead, which changes
+  /// only the tie. `off` receives the relative part of a's pull that is not reflected when a is on the other side; it
+  /// is large for a tie to another position.
   Pull pair(State& state, std::size_t b, std::size_t a, bool is_tie, float* off = nullptr) {
     float apart = length(plus(start_[x(b)], -1, start_[x(a)]));
     if (!(apart > 1e-6f)) apart = spacing_;
@@ -232,8 +233,8 @@ class Forces {
     return found;
   }
 
-  // Stores the state first, so that an evalF that reads the stored state still shows its forces, and loses points only
-  // in the test of this property.
+  // Stores the state first: an evalF that reads the stored state then still shows its forces, and loses points only in
+  // the test of this property.
   State derivative(const State& state, const State& known = {}) {
     asker_.store(state);
     return asker_.changed(state, known);
@@ -266,10 +267,9 @@ class Forces {
     apart_ = fits[1] > fits[0];
   }
 
-  /// Avoids a sphere or a floor of the student's own near the initial state, where forces depend on the position. If
-  /// forces are equal at two distant places, each as far away as any obstacle seen so far and far from each other, all
-  /// questions are asked at the first of them. If forces differ there too (particles attracted to a place), nothing is
-  /// moved.
+  /// Avoids a sphere or a floor of the student's near the initial state, where forces depend on the position. If forces
+  /// are equal at two places, far from each other and both as distant as any obstacle seen so far, all questions are
+  /// asked at the first of them. If forces differ there too (particles attracted to a place), nothing is moved.
   bool leave_obstacles() {
     Plain low = start_[x(0)], high = low;
     for (std::size_t i = 0; i < n_; ++i)
@@ -287,7 +287,8 @@ class Forces {
     int alike = 0;
     float largest = 0;
     for (const Plain& one : first) largest = std::fmax(largest, length(one));
-    // positions are rounded to 1e-5 of the extent out there, and springs are stretched by about a tenth of their length
+    // in those places positions are rounded to 1e-5 of the extent, and springs are stretched by about a tenth of their
+    // length
     for (std::size_t i = 0; i < n_; ++i) alike += length(plus(first[i], -1, second[i])) <= 1e-2f * largest;
     if (!(largest > 0) || alike < static_cast<int>(n_)) return false;
     start_ = away(start_, centre, size, 0);
@@ -295,9 +296,9 @@ class Forces {
     return true;
   }
 
-  /// Finds particles whose forces change when all particles are moved alike: they are attached to something that is not
+  /// Finds particles whose forces change when all particles are moved alike. They are attached to something that is not
   /// a particle, such as a hinge in the world, or to held particles whose positions evalF does not read from the state
-  /// (silent_). If most particles are, it is not a tie.
+  /// (silent_). If more than half of the particles are affected, there is another cause, and none is regarded as tied.
   void find_ties() {
     const State given = around(0);
     State moved = given;
@@ -327,7 +328,7 @@ class Forces {
     }
   }
 
-  /// 1.5 times a power of two in each direction, so that additions and subtractions round alike.
+  /// A vector whose components are 1.5 times a power of two, so that additions and subtractions round alike.
   static Plain corner(float size, int which) {
     const float one = 1.5f * std::exp2(std::ceil(std::log2(size)));
     return which == 0 ? Plain{{one, one, one}} : Plain{{-one, one, one}};
@@ -363,8 +364,8 @@ class Forces {
   State home_;   // initial state of the system
   std::size_t n_;
   Plain far_;               // displacement from home_ to start_, if they differ
-  float spacing_ = 0;       // the least distance of two consecutive particles
-  bool apart_ = false;      // all positions, then all velocities
+  float spacing_ = 0;       // the smallest distance of two consecutive particles
+  bool apart_ = false;      // the state holds all positions, then all velocities
   std::vector<bool> tied_;  // particles attached to something that is not a particle
   Indices silent_;          // held particles that pull no other particle, if some particles are tied
 };

@@ -1,4 +1,4 @@
-// A system of the grader's own for steppers to advance: it has every form of evalF and draw, so that it is complete
+// A system of the grader's own, which steppers advance. It has every form of evalF and draw, so that it is complete
 // whatever the student's base class requires.
 #pragma once
 
@@ -14,8 +14,8 @@ auto kind_of_init(int) -> decltype(std::declval<B&>().initState());
 template <class B>
 void kind_of_init(...);
 
-/// x_i' = A x_i + q (x x, y y, z z) + c x_(i+1) for each vector of the state, cyclically: coefficients that a stepper
-/// cannot know, and vectors that interact.
+/// For each vector of the state: x_i' = A x_i + q (x x, y y, z z) + c x_(i+1), with cyclic indices. A stepper cannot
+/// know the coefficients, and the vectors interact.
 class Own : public ParticleSystem {
  public:
   using ParticleSystem::ParticleSystem;
@@ -70,7 +70,7 @@ class Own : public ParticleSystem {
   Init initState() const { return Init(); }
 
  private:
-  /// Some base classes write into an array of their own, which must be long enough first.
+  /// Some base classes write into their own array, which must first be long enough.
   template <class O>
   static void enlarge(O& own, const Vec& state) {
     if constexpr (requires { own.m_vVecState = state; }) own.m_vVecState = state;

@@ -13,7 +13,7 @@ bool simple(const std::string& call, const coursework::Numbers& in, coursework::
   if (call != "field") return false;
   T& system = ready<T>(1, false);
   const std::size_t size = state_of(system).size();
-  // further entries, if there are any, hold other numbers
+  // all further entries of the two vectors differ
   Vec given(size, vector_at(in, 3)), stored(size, vector_at(in, 0));
   given[0] = vector_at(in, 0);
   stored[0] = vector_at(in, 3);
@@ -24,8 +24,8 @@ bool simple(const std::string& call, const coursework::Numbers& in, coursework::
   return true;
 }
 
-/// A call of forces.h with the prefix "pendulum." or "chain.". Input: number of particles and seed. Output: the answers
-/// of evalF.
+/// Answers a call of forces.h with the prefix "pendulum." or "chain.". Input: number of particles and seed. Output: the
+/// answers of evalF.
 template <class Pendulum, class Chain>
 bool pendulum(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   const int count = static_cast<int>(in[0]);
@@ -36,14 +36,15 @@ bool pendulum(const std::string& call, const coursework::Numbers& in, coursework
     return answered(ready<Pendulum>(count, true, least, 2 * count), seed, call.substr(9), out);
   if (call.rfind("chain.", 0) != 0) return false;
   if constexpr (std::is_same_v<Pendulum, Chain>) {
-    // first uses a system of another size: it must not affect later ones
+    // first uses a system of another size, which must not affect later systems
     auto& other = ready<Pendulum>(2, true, 4, 4);
     evaluate(other, state_of(other));
   }
   return answered(ready<Chain>(count, true, least, 2 * count), seed, call.substr(6), out);
 }
 
-/// A call of forces.h with the prefix "cloth.". Input: particles along a side and seed. Output: the answers of evalF.
+/// Answers a call of forces.h with the prefix "cloth.". Input: number of particles along a side, and seed. Output: the
+/// answers of evalF.
 template <class T>
 bool cloth(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   if (call.rfind("cloth.", 0) != 0) return false;

@@ -6,7 +6,7 @@
 namespace probe {
 
 /// takeStep is often private in the class itself, so it is called through the base class.
-template <class S, class Base = TimeStepper>  // depends on the call, so that missing members can be tested
+template <class S, class Base = TimeStepper>  // makes types depend on the call, so that missing members can be tested
 void take_step(S& stepper, Own& own, float h) {
   ParticleSystem& system = own;
   coursework::calling("takeStep");

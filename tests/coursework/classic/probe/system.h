@@ -23,7 +23,8 @@ inline Vector3f vector_at(const coursework::Numbers& in, std::size_t i) {
   return Vector3f(static_cast<float>(in.at(i)), static_cast<float>(in.at(i + 1)), static_cast<float>(in.at(i + 2)));
 }
 
-/// Value for an argument of unknown meaning: counts get the count, lengths and masses 1, switches are off.
+/// Value for a constructor's argument of unknown meaning: integers get the count, floating-point numbers (lengths,
+/// masses) 1, and switches are off.
 struct Filler {
   int count;
   template <class T>
@@ -43,8 +44,9 @@ struct Zero {
   operator T() const { return T(); }
 };
 
-/// Discards the output of an evalF that prints: in ten thousand calls nobody reads it, and the grader would stop the
-/// program. The hand-out's check keeps it, because it prints to the same streams and the student reads them.
+/// Discards the output of an evalF that prints. Nobody reads the output of ten thousand calls, and the grader would
+/// stop the program. The hand-out's check keeps the output, because it prints to the same streams and the student reads
+/// it.
 inline void quiet() {
 #ifdef OWN_PROCESS
   static bool done = false;
@@ -61,12 +63,12 @@ inline void quiet() {
 /// Restarts rand() and similar generators, so that a random wind is the same in every evaluation.
 inline void start_random_numbers() {
   std::srand(1);
-#ifndef _WIN32  // which has no drand48
+#ifndef _WIN32  // Windows has no drand48
   srand48(1);
 #endif
 }
 
-/// Zeroed memory with room after it, so that an uninitialised flag is off on every run.
+/// Zeroed memory with spare room behind it, so that an uninitialised flag is off on every run.
 template <class T>
 void* zeroed() {
   void* memory = std::calloc(1, sizeof(T) + 65536);
@@ -150,8 +152,8 @@ void fill_state(T& system) {
     system.reset();
 }
 
-/// A system of `count`, whatever its constructor counts; if its state then has fewer than `least` entries, a system of
-/// `other_count` if that has more.
+/// A system that was constructed with `count`, whatever the constructor counts. If the state then has fewer than
+/// `least` entries, a system constructed with `other_count`, if its state is longer.
 template <class T>
 T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
   const auto made = [&](int of) {

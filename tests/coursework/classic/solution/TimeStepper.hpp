@@ -1,4 +1,4 @@
-// The time steppers. A stepper knows of a system only its state and evalF.
+// The time steppers. They use only the state and evalF of a system.
 #ifndef TIMESTEPPER_H
 #define TIMESTEPPER_H
 
@@ -22,7 +22,7 @@ class Trapzoidal : public TimeStepper {
   void takeStep(ParticleSystem* particleSystem, float stepSize);
 };
 
-/// Not asked of anybody: the grader brings it.
+/// Not part of the assignment: the grader provides it.
 class RK4 : public TimeStepper {
   void takeStep(ParticleSystem* particleSystem, float stepSize);
 };

@@ -8,7 +8,7 @@ const float mass = 0.5f;        // kg
 const float gravity = 9.8f;     // m/s^2
 const float drag = 0.3f;        // N s/m
 const float stiffness = 40.0f;  // N/m
-const float length = 0.6f;      // m, of a spring at rest
+const float length = 0.6f;      // m, rest length of a spring
 
 }  // namespace
 
@@ -19,7 +19,7 @@ PendulumSystem::PendulumSystem(int numParticles) : ParticleSystem(numParticles) 
   }
 }
 
-// positions stand at even places of the state, velocities at odd ones
+// positions are at even indices of the state, velocities at odd ones
 vector<Vector3f> PendulumSystem::evalF(vector<Vector3f> state) {
   const int n = m_numParticles;
   vector<Vector3f> force(n);

@@ -3,7 +3,7 @@
 #include <GL/glut.h>
 
 ClothSystem::ClothSystem() {
-  // yours: the particles, row after row, and the springs between them; one particle at rest stands for them so far
+  // yours: create the particles, row by row, and the springs between them; so far there is only one particle at rest
   m_vVecState.push_back(Vector3f(0.0f));
   m_vVecState.push_back(Vector3f(0.0f));
 }
@@ -15,5 +15,5 @@ vector<Vector3f> ClothSystem::evalF(vector<Vector3f> state) {
 }
 
 void ClothSystem::draw() {
-  // yours: lines between neighbours
+  // yours: draw lines between neighbours
 }

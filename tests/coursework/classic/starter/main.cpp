@@ -52,7 +52,7 @@ void display() {
 }
 
 void tick(int) {
-  // four steps a frame: twenty milliseconds, as long as the frame lasts
+  // four steps per frame: 20 ms, the duration of the frame
   for (int i = 0; running && i < 4; ++i) stepper->takeStep(chosen, stepSize);
   glutPostRedisplay();
   glutTimerFunc(20, tick, 0);

@@ -1,4 +1,4 @@
-// What every system derives from. You need not change it.
+// Base class of all systems. You need not change it.
 #ifndef PARTICLESYSTEM_H
 #define PARTICLESYSTEM_H
 
@@ -15,7 +15,7 @@ class ParticleSystem {
 
   int m_numParticles;
 
-  /// The derivative of the state that is given: X' = f(X).
+  /// The derivative of `state`: X' = f(X).
   virtual vector<Vector3f> evalF(vector<Vector3f> state) = 0;
 
   vector<Vector3f> getState() { return m_vVecState; }

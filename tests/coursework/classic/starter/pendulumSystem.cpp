@@ -4,13 +4,13 @@
 
 PendulumSystem::PendulumSystem(int numParticles) : ParticleSystem(numParticles) {
   for (int i = 0; i < numParticles; ++i) {
-    // yours: where particle i starts, and how fast
+    // yours: the initial position and velocity of particle i
     m_vVecState.push_back(Vector3f(0.0f, -0.5f * i, 0.0f));
     m_vVecState.push_back(Vector3f(0.0f));
   }
 }
 
-// positions stand at even places of the state, velocities at odd ones
+// positions are at even indices of the state, velocities at odd ones
 vector<Vector3f> PendulumSystem::evalF(vector<Vector3f> state) {
   vector<Vector3f> f(state.size());
   // yours

@@ -101,7 +101,7 @@ class Matrix3f {
     return m;
   }
   static Matrix3f scaling(const Vector3f& s) { return scaling(s[0], s[1], s[2]); }
-  /// About an axis, by the formula of Rodrigues.
+  /// Rotation about an axis, by Rodrigues' formula.
   static Matrix3f rotation(const Vector3f& axis, float radians) {
     const Vector3f u = axis.normalized();
     const float c = std::cos(radians), s = std::sin(radians);

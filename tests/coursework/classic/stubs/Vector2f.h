@@ -1,4 +1,4 @@
-// A vector of 2 floats; converts from and to what submissions expect it to.
+// A vector of 2 floats, with all conversions that submissions use.
 #pragma once
 
 #include <cmath>
@@ -90,7 +90,7 @@ class Vector2f {
   float e_[2];
 };
 
-// weak, so that a header may define them under C++14
+// weak, so that a header may define the constants under C++14
 #if defined(_MSC_VER)
 #define VECMATH_CONSTANT __declspec(selectany)
 #elif defined(_WIN32)

@@ -1,4 +1,4 @@
-// A vector of 3 floats; converts from and to what submissions expect it to.
+// A vector of 3 floats, with all conversions that submissions use.
 #pragma once
 
 #include <cmath>
@@ -103,7 +103,7 @@ class Vector3f {
   float e_[3];
 };
 
-// weak, so that a header may define them under C++14
+// weak, so that a header may define the constants under C++14
 VECMATH_CONSTANT const Vector3f Vector3f::ZERO(0.0f, 0.0f, 0.0f);
 VECMATH_CONSTANT const Vector3f Vector3f::UP(0.0f, 1.0f, 0.0f);
 VECMATH_CONSTANT const Vector3f Vector3f::RIGHT(1.0f, 0.0f, 0.0f);

@@ -1,4 +1,4 @@
-// A vector of 4 floats; converts from and to what submissions expect it to.
+// A vector of 4 floats, with all conversions that submissions use.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The helper header of the 2012 family.
+// The helper header of the course of 2012.
 #pragma once
 
 #include "GL/glut.h"

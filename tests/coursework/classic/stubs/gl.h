@@ -1,4 +1,4 @@
-// Drawing of the newer family: a program of shaders and a recorder of vertices, which do nothing.
+// Drawing in the newer version of the course: a shader program and a recorder of vertices, which do nothing.
 #ifndef CLASSIC_GL_H
 #define CLASSIC_GL_H
 

@@ -1,4 +1,4 @@
-// Included before every file of a submission: the standard headers that other compilers' headers bring along.
+// Included before every file of a submission: standard headers that the headers of other compilers include.
 #pragma once
 
 #include <assert.h>

@@ -1,2 +1,2 @@
-// Drawing is in gl.h.
+// The drawing functions are in gl.h.
 #include "gl.h"

@@ -1,2 +1,2 @@
-// Drawing is in gl.h.
+// The recorder is in gl.h.
 #include "gl.h"

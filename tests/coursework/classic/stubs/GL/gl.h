@@ -1,5 +1,6 @@
-// Drawing that compiles and does nothing. A function of OpenGL is a template that takes whatever it is given; the
-// grader adds the names of a submission that are not listed here. In the hand-out a line CLASSIC_NOTHING(name) does.
+// Drawing functions that compile and do nothing. Each function of OpenGL is a template that accepts any arguments. The
+// grader adds the OpenGL names of a submission that are not listed here; in the hand-out, add a line
+// CLASSIC_NOTHING(name).
 #pragma once
 
 #include <stddef.h>
@@ -188,7 +189,7 @@ CLASSIC_NOTHING(glVertexAttribPointer)
 CLASSIC_NOTHING(glDetachShader)
 CLASSIC_NOTHING(glIsProgram)
 
-// those whose value somebody may rely on
+// constants whose values a program may rely on
 #define GL_FALSE 0
 #define GL_TRUE 1
 #define GL_NO_ERROR 0
@@ -205,7 +206,7 @@ CLASSIC_NOTHING(glIsProgram)
 #define GL_QUADS 7
 #define GL_QUAD_STRIP 8
 #define GL_POLYGON 9
-// the others only need to differ
+// the other constants only need distinct values
 #define GL_DEPTH_BUFFER_BIT 256
 #define GL_COLOR_BUFFER_BIT 16384
 #define GL_STENCIL_BUFFER_BIT 1024

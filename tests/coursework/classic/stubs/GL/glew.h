@@ -1,4 +1,4 @@
-// GLEW: every extension is there, and does nothing.
+// GLEW: every extension is available and does nothing.
 #pragma once
 
 #include "gl.h"

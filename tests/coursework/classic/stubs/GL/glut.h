@@ -1,7 +1,7 @@
-// GLUT that opens no window and calls nobody back.
+// GLUT that opens no window and never calls a callback.
 #pragma once
 
-// as the true header does, and submissions rely on it
+// included by the real header too, and submissions rely on that
 #include <stdlib.h>
 
 #include "gl.h"

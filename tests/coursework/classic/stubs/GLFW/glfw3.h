@@ -1,4 +1,4 @@
-// GLFW that opens no window and calls nobody back.
+// GLFW that opens no window and never calls a callback.
 #pragma once
 
 #include "../GL/gl.h"

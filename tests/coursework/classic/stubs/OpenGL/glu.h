@@ -1,4 +1,4 @@
-// As macOS spells it.
+// The header's path on macOS.
 #pragma once
 
 #include "../GL/glu.h"

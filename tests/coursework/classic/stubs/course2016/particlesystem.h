@@ -1,4 +1,4 @@
-// The base of every system of the newer family; used where a submission does not bring its own.
+// The base class of all systems in the newer version of the course, for submissions without this header.
 #ifndef PARTICLESYSTEM_H
 #define PARTICLESYSTEM_H
 
@@ -12,7 +12,7 @@ class ParticleSystem {
  public:
   virtual ~ParticleSystem() {}
 
-  /// The derivative of the state that is given: X' = f(X).
+  /// The derivative of `state`: X' = f(X).
   virtual std::vector<Vector3f> evalF(std::vector<Vector3f> state) = 0;
 
   std::vector<Vector3f> getState() { return m_vVecState; }

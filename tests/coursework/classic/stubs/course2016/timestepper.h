@@ -1,4 +1,4 @@
-// The steppers of the newer family; used where a submission does not bring its own header.
+// The steppers of the newer version of the course, for submissions without this header.
 #ifndef TIMESTEPPER_H
 #define TIMESTEPPER_H
 
@@ -18,7 +18,7 @@ class Trapezoidal : public TimeStepper {
   void takeStep(ParticleSystem* particleSystem, float stepSize) override;
 };
 
-/// Not asked of anybody: the grader brings it.
+/// Not part of the assignment: the grader provides it.
 class RK4 : public TimeStepper {
   void takeStep(ParticleSystem* particleSystem, float stepSize) override;
 };

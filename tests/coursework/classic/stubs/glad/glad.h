@@ -1,4 +1,4 @@
-// glad: the loader finds everything, since there is nothing to load.
+// glad, whose loader always succeeds because there is nothing to load.
 #pragma once
 
 #include "../GL/gl.h"

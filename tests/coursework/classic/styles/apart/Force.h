@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-/// What acts on particles; a body is its position and velocity.
+/// Position and velocity of a particle, on which forces act.
 struct Body {
   Vector3f position, velocity;
 };
@@ -45,7 +45,7 @@ class Hooke : public Force {
   float k_, rest_;
 };
 
-/// Bodies under forces, their positions first in the state and then their velocities.
+/// Bodies under forces. The state contains all positions, then all velocities.
 class Mechanics {
  public:
   void add(Force* force) { forces_.emplace_back(force); }

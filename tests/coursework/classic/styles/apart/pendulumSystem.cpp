@@ -5,7 +5,7 @@ PendulumSystem::PendulumSystem(int numParticles, float stiffness, bool holdFirst
   m_vVecState.resize(2 * numParticles, Vector3f(0.0f));
   mechanics.add(new Weight(Vector3f(0, -9.8f, 0)));
   mechanics.add(new Viscosity(0.4f));
-  // each link twice, half as stiff
+  // each link consists of two springs of half the stiffness
   for (int i = 1; i < numParticles; ++i)
     for (int half = 0; half < 2; ++half) mechanics.add(new Hooke(i - half, i - 1 + half, 25 * stiffness, 0.3f));
   mechanics.hold(holdFirst ? 0 : numParticles - 1);

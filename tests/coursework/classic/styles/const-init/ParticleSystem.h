@@ -3,7 +3,7 @@
 #include <vecmath.h>
 using namespace std;
 
-// Everything about a system is const but its state.
+// All members are const except those that change the state.
 class ParticleSystem
 {
 public:

@@ -41,7 +41,7 @@ vector<Vector3f> ClothSystem::evalF(const vector<Vector3f>& state) const
         f[2 * springs[s].i + 1] -= pull;
         f[2 * springs[s].j + 1] += pull;
     }
-    // held by every third particle of its first row, like a curtain
+    // fixes four particles of the first row, like a curtain
     for (int x = 0; x < side; x++)
         if (x == 0 || x == side - 1 || x == side / 2 || x == side - 1 - side / 2) f[2 * x] = f[2 * x + 1] = 0;
     return f;

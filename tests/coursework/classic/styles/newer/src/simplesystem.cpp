@@ -6,7 +6,7 @@
 SimpleSystem::SimpleSystem() { m_vVecState = {Vector3f::RIGHT}; }
 
 std::vector<Vector3f> SimpleSystem::evalF(std::vector<Vector3f> state) {
-  // a quarter turn of each vector, flattened
+  // turns each vector by 90 degrees about z, and removes its z component
   for (auto& s : state) s = Vector3f::cross(Vector3f(0, 0, 1), s);
   return state;
 }

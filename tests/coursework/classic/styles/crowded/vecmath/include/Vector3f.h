@@ -1,7 +1,7 @@
 #ifndef VECTOR_3F_H
 #define VECTOR_3F_H
 
-/// A vector library of the student's own, with a function that no other has.
+/// The student's own vector library, with a function that no other library has.
 class Vector3f {
  public:
   Vector3f(float f = 0.f);
