@@ -1,4 +1,5 @@
-// Assignments: their parts, tests and points. assignments.cpp has the table of all; a new one is a folder and a row.
+// Assignments with their parts, tests and points. assignments.cpp has the table of all assignments; a new one needs a
+// folder and a row.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +18,10 @@ namespace coursework {
 
 /// A file that the student writes. Earlier parts that it calls are linked from the official solution.
 struct Part {
-  std::string_view name;   // the file without its ending; calls_NAME.cpp calls it
+  std::string_view name;   // the file without its extension; calls_NAME.cpp calls it
   std::string_view title;  // key of the texts
-  /// Its functions, with commas, if students may write it in Python: then all parts have them (python.h).
+  /// Comma-separated names of its functions, if students may write the part in Python; empty otherwise. All parts of an
+  /// assignment have functions, or none (python.h).
   std::string_view functions = {};
 };
 
@@ -29,17 +31,17 @@ struct Test {
   int points;             // for the test with the public seed of the hand-out
   int hidden;             // for the same property with the lecturer's seed
   std::vector<std::string_view> concepts;
-  std::string_view read;                // heading of the hand-out that explains it
+  std::string_view read;                // heading of the hand-out's section that explains it
   std::vector<Case> (*cases)(Random&);  // inputs and expected answers; deterministic in the seed
-  /// Converts the raw numbers of a call into those to compare; null: compares the raw ones. For oracles that hold for
-  /// any constants that a student chooses.
+  /// Converts the raw numbers of a call into the numbers to compare, for oracles that hold for any constants that a
+  /// student chooses. Null: compares the raw numbers.
   Found (*reduce)(const Case&, const Numbers& raw) = nullptr;
-  /// Small cases of a test with large ones, in order of size, which show a student where to begin. They run only after
-  /// the test failed, and do not affect the verdict.
+  /// Small cases, in order of size, for a test with large cases; they show a student where to begin. They run only
+  /// after the test failed, and do not affect the verdict.
   std::vector<Case> (*small)(Random&) = nullptr;
 };
 
-/// Runs a program: one answer per case.
+/// Runs a program and returns one answer per case.
 using Ask = std::function<std::vector<Answer>(const std::vector<Case>&)>;
 
 /// Result of an assignment's formula analysis; empty text if it found nothing.
@@ -55,8 +57,8 @@ struct Assignment {
   std::string_view name, title;
   std::span<const Part> parts;  // in the order in which they depend on each other
   std::span<const Test> tests;  // points and hidden points sum to 100
-  /// Null: students hand in a file per part. Otherwise they hand in a whole program, with files of any name, and the
-  /// builder finds the parts in it.
+  /// Finds the parts in a whole program that students hand in, with files of any name. Null if they hand in a file per
+  /// part.
   std::unique_ptr<Builder> (*builder)(const Assignment&, const Sandbox& trusted, const Sandbox& sandbox) = nullptr;
   bool takes_whole_program() const { return builder != nullptr; }
   std::span<const std::string_view> roles = {};  // roles for which a student's grade.toml may name a class
@@ -64,7 +66,7 @@ struct Assignment {
   Looked (*look)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
   /// Reports measured constants of a part that are the student's choice and not graded, whether the part fails or not.
   std::string (*measured)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
-  /// If answers are reduced: question and answer as text, for whatever is wrong in the answer.
+  /// If answers are reduced: text with question and answer for the first error in the answer.
   std::string (*shown)(const Texts& own, const Case& what, const Numbers& raw) = nullptr;
   std::filesystem::path folder() const;
 };

@@ -1,4 +1,4 @@
-// The table of assignments: a new one needs a folder, the declaration of its function and a row.
+// The table of assignments. A new one needs a folder, the declaration of its function and a row.
 
 #include <cstdlib>
 #include <stdexcept>
@@ -32,9 +32,9 @@ std::span<const Assignment> assignments() {
       a3_cloth(),           // a grid of springs
       a4_collision(),       // collision with a sphere
       a5_stiff(),           // implicit Euler
-      a6_solvers(),         // implicit Euler solved by passes
+      a6_solvers(),         // implicit Euler, solved iteratively
       m1_misconceptions(),  // five beliefs, tested
-      classic_particles(),  // all of it, in the interface of the classic course
+      classic_particles(),  // all topics, in the interface of the classic course
   };
   return all;
 }

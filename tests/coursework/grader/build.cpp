@@ -30,9 +30,9 @@ fs::path find_compiler() {
   for (std::string folder; std::getline(path, folder, ':');) folders.push_back(folder);
   for (const char* name : {"g++", "clang++", "c++"})
     for (const fs::path& folder : folders) {
-      // sandboxes cannot see a wrapper in this user's folders
+      // sandboxes cannot see the user's folder of ccache
       if (folder.string().find("ccache") != std::string::npos || access((folder / name).c_str(), X_OK) != 0) continue;
-      const fs::path real = fs::canonical(folder / name);  // sandboxes show /usr, not /etc/alternatives
+      const fs::path real = fs::canonical(folder / name);  // resolves links through /etc/alternatives
       return real.filename().string().find("++") != std::string::npos ? real : folder / name;
     }
   throw InputError("no C++ compiler found; expected g++ or clang++ on the PATH: apt-get install g++");
@@ -46,7 +46,7 @@ fs::path compiled_folder() {
 }  // namespace
 
 std::string key_of(const std::string& content) {
-  // twice 64 bits: contents are ours, so deliberate collisions are not a concern
+  // two 64-bit hashes; the contents are ours, so deliberate collisions are not a concern
   return fmt::format("{:016x}{:016x}", crosscheck::Fnv1a::of(content), crosscheck::Fnv1a::of(content + "/"));
 }
 
@@ -62,7 +62,8 @@ const std::vector<std::string>& checking_options() {
 
 Compiler::Compiler() : cache_(compiled_folder()) {
   const fs::path program = find_compiler();
-  // sandboxes set LANG to C, so that messages are in English; no fused multiply-add: the same numbers on every machine
+  // sandboxes set LANG to C, so messages are in English; without fused multiply-add, numbers are the same on every
+  // machine
   command_ = {program.string(), "-w", "-ffp-contract=off", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"};
   fingerprint_ = fmt::format("{} {}", fmt::join(command_, " "), fs::file_size(program));
   crosscheck::require_writable(cache_);
@@ -82,7 +83,7 @@ fs::path Compiler::cached(const std::string& key, const std::string& ending,
   const crosscheck::TemporaryFolder scratch("build");
   const fs::path made = scratch.path / ("made" + ending);
   make(made);
-  const crosscheck::TemporaryFolder beside("copy", cache_);  // for a rename within one file system
+  const crosscheck::TemporaryFolder beside("copy", cache_);  // in the cache's file system, so that rename() works
   fs::copy_file(made, beside.path / "made");
   fs::rename(beside.path / "made", file);
   return file;
@@ -100,7 +101,7 @@ void compile_ours(const Sandbox& trusted, const std::vector<std::string>& comman
 
 namespace {
 
-/// N of the first "FILE:N:" in the line.
+/// Returns the line number N of the first "FILE:N:" in `line`.
 std::optional<std::string> line_of(const std::string& file, const std::string& line) {
   std::size_t at = line.find(file + ":");
   if (at == std::string::npos) return {};
@@ -110,7 +111,7 @@ std::optional<std::string> line_of(const std::string& file, const std::string& l
   return line.substr(at, end - at);
 }
 
-/// The name that ld prints between ` and ' after these words.
+/// The name that ld prints between ` and ' after `words`.
 std::optional<std::string> quoted_after(const std::string& words, const std::string& text) {
   const std::size_t at = text.find(words);
   if (at == std::string::npos) return {};
@@ -127,7 +128,7 @@ Remark too_large(const std::string& file) {
 }
 
 Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own) {
-  constexpr std::size_t longest = 8000;  // the end of a line with long type names has the relevant part
+  constexpr std::size_t longest = 8000;  // the relevant text is at the end of a line with long type names
   std::istringstream lines(said);
   std::optional<std::string> number, what;
   for (std::string line; std::getline(lines, line);) {
@@ -138,7 +139,7 @@ Remark first_error(const std::string& file, const std::string& said, const std::
         if (const auto there = line_of(one, line)) return {"build.compile", {one, *there, *what}};
       if (const auto here = line_of(file, line)) number = here;
     }
-    // an error inside a header: reports the student's line that includes it, as named by the compiler
+    // for an error inside a header, reports the student's line that includes it, which the compiler names
     if (!number) number = line_of(file, line);
     if (!what || !number) continue;
     const std::size_t lacks = what->find(": No such file or directory");
@@ -177,8 +178,8 @@ class PartBuilder : public Builder {
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1", "-pthread"});
-    // an index outside a vector or an array ends the program; not in charts, which measure the cost of the unchecked
-    // code
+    // an index outside a vector or an array ends the program; no checks for charts, which measure the CPU time of
+    // unchecked code
     if (checking)
       command_.insert(command_.end(), checking_options().begin(), checking_options().end());
     else if (!fs::exists(folder_ / "calls_engine.cpp"))
@@ -283,7 +284,7 @@ class PartBuilder : public Builder {
     parallel_for(sources.size(), jobs, [&](std::size_t i) { object_of(sources[i]); });
   }
 
-  /// Runs the compiler in the sandbox on the files in `in`; `file` is the file to name in a failure.
+  /// Runs the compiler in the sandbox on the files in `in`; failures name `file`.
   Built made_in_sandbox(const std::vector<std::string>& more, const fs::path& in, const fs::path& made,
                         const std::string& file, const std::vector<std::string>& own = {}) const {
     fs::create_directories(made.parent_path());
@@ -310,7 +311,7 @@ class PartBuilder : public Builder {
     return compiled(file, place.parent_path() / file, submission, folder);
   }
 
-  /// Compiles a source of the student's at `path`, with the student's own headers laid out around it.
+  /// Compiles the student's source `file` at `path`, together with the student's own headers.
   Built compiled(const std::string& file, const fs::path& path, const Submission& submission,
                  const fs::path& folder) const {
     const fs::path in = folder / "in", here = (in / path).parent_path();
@@ -323,7 +324,7 @@ class PartBuilder : public Builder {
         // an archive may contain a file and a folder of the same name; the compiler then reports the missing file
       }
     crosscheck::write_file(in / path, submission.files.at(file));
-    // ours last: they replace the student's files with the same names
+    // written last, so that our headers replace the student's files with the same names
     for (const fs::path& header : files_in(folder_ / "starter", "", ".h")) {
       crosscheck::write_file(here / header.filename(), content_of_file(header));
       for (const auto& entry : fs::recursive_directory_iterator(in))
@@ -350,10 +351,10 @@ class PartBuilder : public Builder {
     return made;
   }
 
-  /// Links a part. Earlier parts are the official ones, so that a mistake in one costs nothing here; if the part needs
-  /// the student's own functions from earlier parts or other sources, these are linked after the official ones, which
-  /// take precedence. Later parts are never official, since a linked solution could be called: the student's, on which
-  /// an earlier part may depend; if that fails to link, the hand-out's.
+  /// Links a part. Earlier parts are the official ones, so that an earlier mistake costs nothing here. If the part
+  /// needs the student's own functions from earlier parts or other sources, these are linked after the official ones,
+  /// which take precedence. Later parts are never official, because the student's code could call a linked solution.
+  /// They are the student's, on which an earlier part may depend, or, if these fail to link, the hand-out's starters.
   Built linked(std::size_t i, const std::vector<Built>& objects, const Submission& submission, const fs::path& folder,
                const Around& around) const {
     if (objects[i].program.empty()) return objects[i];
@@ -379,7 +380,7 @@ class PartBuilder : public Builder {
       for (const fs::path& object : shared()) add(object, "ours" + std::to_string(number++) + ".o");
       for (std::size_t k = 0; k < i; ++k) add(solution(part(k)), "ours-" + part(k) + ".o");
       if (their_earlier) {
-        words.push_back("-Wl,--allow-multiple-definition");  // the first definition wins: ours
+        words.push_back("-Wl,--allow-multiple-definition");  // the first definition wins, which is ours
         for (std::size_t k = 0; k <= i; ++k)
           if (!objects[k].program.empty()) add(objects[k].program, part(k) + ".o");
         if (!others) others = other_objects(submission, folder / "other");

@@ -1,5 +1,5 @@
-// Builds a program around each part, the student's in a sandbox and ours from a cache: the compiler, readable compiler
-// errors, the builders.
+// Builds a program around each part: the student's in a sandbox, ours from a cache. Declares the compiler, readable
+// compiler errors, and the builders.
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,19 @@
 
 namespace coursework {
 
-/// Limits of the compiler, which may start its own passes. Half a minute of CPU time is thirty times the need of a
-/// part, and 1 GB per pass five times. The wall-clock limit is large, because waiting on a busy machine is not the
-/// source's fault.
+/// Limits of the compiler, which may start processes for its passes. 30 s of CPU time is thirty times what a part
+/// needs, and 1 GB per pass five times. The wall-clock limit is large, because a busy machine is not the source's
+/// fault.
 constexpr Limits compile_limits{.cpu = 30, .wall = 1800, .memory = 1024, .processes = 64, .output = 4096, .file = 64};
 
 class Compiler {
  public:
-  /// Throws InputError if there is no C++ compiler, or no folder for a cache.
+  /// Throws InputError if there is no C++ compiler, or no folder for the cache.
   Compiler();
 
-  /// The program and the options of every call; the language standard is not among them.
+  /// The program and the options of every call, without the language standard.
   const std::vector<std::string>& command() const { return command_; }
-  /// Changes with the compiler and these options.
+  /// Hash that changes with the compiler and these options.
   const std::string& fingerprint() const { return fingerprint_; }
   const std::filesystem::path& cache() const { return cache_; }
 
@@ -43,60 +43,62 @@ class Compiler {
   std::filesystem::path cache_;
 };
 
-/// Path under which a program reports a student's files, independent of the folder of compilation.
+/// Path that a program reports for a student's files, independent of the folder of compilation.
 constexpr std::string_view student_folder = "/handed-in";
 /// The compiler's option for files below this folder.
 std::string as_student_folder(const std::filesystem::path& folder);
 
-/// Options of Builder::checked(). Not position-independent, so that run-time addresses equal those in the file.
+/// Options of Builder::checked(). Programs are not position-independent, so that run-time addresses equal those in the
+/// file.
 const std::vector<std::string>& checking_options();
 
-/// Runs the command in the sandbox, which may write to `writable`. Throws std::runtime_error that names `what` if it
-/// fails, because these are sources of ours.
+/// Runs the command in the sandbox, which may write to `writable`. A failure is an error in our sources: throws
+/// std::runtime_error that names `what`.
 void compile_ours(const Sandbox& trusted, const std::vector<std::string>& command,
                   const std::filesystem::path& writable, const std::string& what);
 
 /// Fingerprint of a text, as a file name.
 std::string key_of(const std::string& content);
 
-/// Reports that compiling the file exceeds the limit on memory or file size.
+/// The remark that compiling the file exceeds the limit on memory or file size.
 Remark too_large(const std::string& file);
 
-/// Place and text of the first error in the student's `file` (its bare name), or in one of `own` that it includes.
-/// `said` is the output of g++ or clang++ in English.
+/// The remark with line and text of the first error in the student's `file` (its bare name), or in one of the files
+/// `own` that it includes. `said` is the output of g++ or clang++ in English.
 Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own = {});
 
 struct Built {
-  std::filesystem::path program;   // empty: not built
+  std::filesystem::path program;   // empty if not built
   Remark error = {};               // reason, if not built
   bool missing = false;            // true: not handed in; false: does not compile
   std::vector<Remark> notes = {};  // remarks that precede the tests
 };
 
-/// Builds an assignment's submissions into one program per part. `trusted` runs the compiler on sources of ours,
-/// `sandbox` on a student's.
+/// Builds an assignment's submissions into one program per part. `trusted` runs the compiler on our sources, `sandbox`
+/// on the student's.
 class Builder {
  public:
   virtual ~Builder() = default;
 
-  /// The part's program with this source of ours (its solution, a known mistake). Compiled at most once for the same
+  /// The part's program with this source of ours (its solution, or a known mistake). Compiled at most once for the same
   /// contents. Throws std::runtime_error with the compiler's output.
   virtual std::filesystem::path ours(const std::string& part, const std::string& source) const = 0;
 
-  /// Every part's program with the student's code, compiled in the sandbox within `folder`, which need not exist; runs
+  /// Every part's program with the student's code, compiled in the sandbox within `folder`, which need not exist. Runs
   /// `jobs` compilers in parallel.
   virtual std::map<std::string, Built> theirs(const Submission& submission, const std::filesystem::path& folder,
                                               unsigned jobs) const = 0;
 
-  /// Rebuilds the part's program for an experiment: the submission may have been changed, and each call of a function
-  /// in `wrapped` is redirected to __wrap_NAME in `around`, a source of ours (ld's --wrap). Empty for whole programs.
+  /// Rebuilds the part's program for an experiment, in which the submission may be modified. Each call of a function in
+  /// `wrapped` is redirected to __wrap_NAME in `around`, a source of ours (ld's --wrap). Returns nothing for whole
+  /// programs.
   virtual Built varied(const Submission&, const std::string&, const std::filesystem::path&,
                        const std::vector<std::string>& = {}, const std::string& = "") const {
     return {};
   }
 
-  /// Rebuilds the part's program with checks: an index out of range ends it and is reported on standard error, as by
-  /// the standard library's debug mode and the compiler's own checks, and a crash reports its location.
+  /// Rebuilds the part's program with checks. An index out of range ends the program and is reported on standard error
+  /// (by the standard library's debug mode or the compiler's own checks), and a crash reports its location.
   virtual Built checked(const Submission& submission, const std::string& part,
                         const std::filesystem::path& folder) const = 0;
 
@@ -112,7 +114,7 @@ std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Sandbox
 std::filesystem::path solution_of(const Assignment& assignment, const Builder& builder, const std::string& part);
 
 std::string content_of_file(const std::filesystem::path& file);
-/// The content of a file below grader/ with {0}, {1}, ... replaced.
+/// The content of a file below grader/, in which {0}, {1}, ... are replaced.
 std::string filled(const std::string& file, const std::vector<std::string>& with);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Chooses the cases of a test: seeds, and the public cases of the hand-out.
+// Creates the cases of a test: seeds, and the public cases of the hand-out.
 #include "mysim/base/hash.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/grade.h"
@@ -6,7 +6,7 @@
 namespace coursework {
 namespace {
 
-/// One step of SplitMix64 on both: seeds that differ in one bit give unrelated results.
+/// A hash of both numbers by SplitMix64: seeds that differ in one bit give unrelated results.
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return Random(Random(a).next() ^ b).next(); }
 
 }  // namespace
@@ -16,11 +16,11 @@ std::uint64_t public_seed(const Assignment& assignment, const Test& test) {
 }
 
 std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
-  constexpr std::size_t small = 40;  // numbers of a case that can be computed by hand
+  constexpr std::size_t small = 40;  // inputs of a case that can still be computed by hand
   Random random(public_seed(assignment, test));
   std::vector<Case> usual = test.cases(random), all;
   const Texts own = Texts::read((assignment.folder() / "texts.en.txt").string());
-  // no round numbers if the answer is reduced first, or if inputs are never shown
+  // no round numbers if the answer is reduced before it is compared, or if inputs are never shown
   if (!test.reduce && !usual.empty() && has_layout(own, usual.front())) {
     Random round(public_seed(assignment, test), true);
     all = test.cases(round);

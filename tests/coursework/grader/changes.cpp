@@ -1,4 +1,4 @@
-// Changes of a call's inputs, addressed by name.
+// Changes of the inputs of a call, addressed by name.
 #include "tests/coursework/grader/changes.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ const Param* find(const std::vector<Param>& params, const std::string& name) {
   return found == params.end() ? nullptr : &*found;
 }
 
-/// Position of the numbers of a list that has a count of its own.
+/// Positions of the numbers of a list whose number of items is an input too.
 struct Listed {
   std::string name;  // the count's name
   std::size_t count, begin, end, items;
@@ -33,7 +33,7 @@ std::vector<Listed> lists_in(const CallLayout& layout) {
   return lists;
 }
 
-/// True if items are answered row by row: they cannot be left out, because the answer would have other rows.
+/// True if the answer has a row per item: no item can be left out then, because the answer would have fewer rows.
 bool is_told_by_rows(const Listed& list, const Case& what) {
   const std::size_t rows = what.expected.size() / static_cast<std::size_t>(std::max(1, what.columns));
   if (list.name == "particles" || list.name == "count") return true;
@@ -54,12 +54,12 @@ bool changes_list(Change::Kind kind) {
   return kind == Change::without || kind == Change::only_first || kind == Change::only_last;
 }
 
-/// Changed value of number i of all those with a name.
+/// Number i of the parameter p after the change; q is the other parameter, if the change needs one.
 double changed_number(const Change& change, const Param& p, const Param* q, const Numbers& in, std::size_t i) {
   const double value = in[p.at[i]];
   const auto of_row = [&](std::size_t row) { return in[p.at[row * p.columns + i % p.columns]]; };
   const std::size_t row = i / p.columns, last = p.rows - 1;
-  // a number for all, or one for each
+  // q has a single number, or a number for each number or row of p
   const double other = q ? in[q->at[q->scalar() ? 0 : q->columns == 1 && q->rows == p.rows ? row : i]] : 0;
   switch (change.kind) {
     case Change::zero:
@@ -152,12 +152,12 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   const bool meets = find(params, "radius") != nullptr;
   for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // excluded: without a step nothing moves, without a radius or at another place there is no contact, so nothing is
-    // wrong; a direction is never zero, and `exact` is what answers are compared with
+    // parameters that are not set to zero: without a step nothing moves; without a radius or at another position there
+    // is no contact, so no error shows; a direction is never zero; and answers are compared with `exact`
     static const std::set<std::string> no_terms = {"h",      "frame",     "duration", "radius", "margin",
                                                    "centre", "before",    "proposed", "x",      "normal",
                                                    "n",      "direction", "exact"};
-    // likewise without whatever moves the particle into the obstacle
+    // nor may whatever moves the particle into the obstacle be zero
     const bool makes_contact = meets && (p.name == "g" || p.name == "v");
     if (!p.whole && no_terms.count(p.name) == 0 && !makes_contact) all.push_back({Change::zero, p.name});
   }

@@ -19,15 +19,15 @@ struct Change {
     twice,
     half,
     thrice,
-    third,  // for all numbers with the name
+    third,  // these kinds multiply or replace all numbers with the name
     square,
     times,
-    over,  // by itself (square), or by another number
+    over,  // multiplied or divided: by themselves (square), or by another parameter
     first,
     next,
     previous,  // replaced by the value of the first item, or of a neighbour
     exchanged,
-    instead,  // with the parameter of another name
+    instead,  // replaced by another parameter; `exchanged`: also the other way round
     without,
     only_first,
     only_last,  // items of a list
@@ -36,16 +36,16 @@ struct Change {
   Kind kind;
   std::string name, other = {};
   double number = 0;
-  /// Order of preference, from 1: simpler explanations first.
+  /// Order of preference: 1 for simple explanations, 2 for others.
   int tier() const { return kind == square || kind == times || kind == over ? 2 : 1; }
 };
 
 /// All changes that the call allows.
 std::vector<Change> changes_of(const Texts& own, const Case& what);
-/// The changes that remove something from it.
+/// The changes that remove an input from the call.
 std::vector<Change> removals_of(const Texts& own, const Case& what);
 
-/// The numbers of the case after the change; empty if it does not apply, or has no effect.
+/// The numbers of the case after the change; nullopt if the change does not apply, or has no effect.
 std::optional<Numbers> changed(const Texts& own, const Case& what, const Change& change);
 
 /// "drag = 0"

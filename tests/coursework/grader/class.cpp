@@ -1,4 +1,4 @@
-// Grades in parallel, resumes an interrupted run, and counts.
+// Grades a class in parallel, resumes an interrupted run, and counts results.
 #include "tests/coursework/grader/class.h"
 
 #include <fmt/format.h>
@@ -53,19 +53,19 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
     all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
   for (const auto& [name, place] : submission.places) all += fmt::format("{} {}\n", name, place);
   for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
-  // with the package installed, the submission is graded again
+  // once a missing package is installed, the submission must be graded again
   if (submission.python) all += missing_python_package();
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// Complete result of an earlier grading with this end of the fingerprint.
+/// Complete result of an earlier grading whose fingerprint ends with `ending`; `fingerprint` receives the whole of it.
 std::optional<Result> earlier_result(const fs::path& file, const Assignment& assignment, const std::string& ending,
                                      std::string& fingerprint) {
   if (!fs::exists(file)) return {};
   try {
     Result result = result_from_json(content_of_file(file), file.string(), &fingerprint);
     if (result.complete && result.assignment == assignment.name && fingerprint.ends_with(ending)) return result;
-  } catch (const std::exception&) {  // a file of another kind: grades again
+  } catch (const std::exception&) {  // not a result file: the submission is graded again
   }
   return {};
 }
@@ -76,7 +76,7 @@ std::string csv_of(const std::string& text) {
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
-/// Points of a test, public and hidden together.
+/// Points of a test, the sum of public and hidden ones.
 std::string points_at(const Result& result, const std::string& id) {
   double sum = 0;
   for (const TestResult& test : result.tests) {
@@ -88,21 +88,21 @@ std::string points_at(const Result& result, const std::string& id) {
 
 /// Cells of a row of the table: name, id, late, total points and points per part, remark.
 std::vector<std::string> cells_of(const Assignment& assignment, const GradedSubmission& one) {
-  // not graded is not zero: the cells stay empty
+  // cells of a submission that was not graded are empty instead of 0
   std::vector<std::string> cells = {one.result.submission, one.id, one.late ? "late" : "", points_in(one)};
   for (const Part& part : assignment.parts) cells.push_back(points_in(one, part.name));
   cells.push_back(remark_of(one));
   return cells;
 }
 
-/// A cause without "Likely cause:", for use below such a heading.
+/// The cause without the words "Likely cause:", for use below such a heading.
 std::string bare(const std::string& cause, const Texts& common) {
   const std::string& text = common.of("cause");
   const std::string begin = text.substr(0, text.find('{'));
   return cause.starts_with(begin) ? cause.substr(begin.size()) : cause;
 }
 
-/// Counts of one test over the class. Public and hidden count together: a test is passed if both are passed.
+/// Counts of one test over the class. A test counts as passed if both its public and its hidden form are passed.
 struct TestCount {
   std::string id, title;
   int passed = 0, failed = 0, ungraded = 0;
@@ -127,7 +127,7 @@ std::vector<TestCount> counts_of(const std::vector<GradedSubmission>& all) {
     for (const TestResult& test : one.result.tests) by_id[test.id].push_back(&test);
     for (const TestResult& test : one.result.tests) {
       auto& same = by_id[test.id];
-      if (same.empty()) continue;  // counted together with its twin
+      if (same.empty()) continue;  // the test's other form has been counted together with this one
       auto count = std::find_if(counts.begin(), counts.end(), [&](const TestCount& c) { return c.id == test.id; });
       if (count == counts.end()) count = counts.insert(count, {.id = test.id, .title = test.title, .causes = {}});
       const auto any = [&](auto what) { return std::any_of(same.begin(), same.end(), what); };
@@ -168,7 +168,7 @@ std::string row(const std::vector<std::string>& cells, const char* kind = "td") 
   return text + "</tr>\n";
 }
 
-/// Header row of a table; `words` are separated by commas.
+/// Header row of a table from comma-separated `words`.
 std::string head(const std::string& words) {
   std::vector<std::string> cells;
   for (const std::string& word : crosscheck::split(words, ',')) cells.push_back(escaped(word.substr(word[0] == ' ')));
@@ -202,7 +202,8 @@ std::string points_in(const GradedSubmission& one, std::string_view part) {
 std::string file_name_for(const std::string& submission) {
   std::string plain = crosscheck::file_name_of(submission);
   if (plain.starts_with('.')) plain[0] = '_';  // not a hidden file
-  // class.html and crosscheck.json are the class's own, on disks that ignore case too; '/' and '?' become the same dash
+  // class.html and crosscheck.json are reserved for the class (case is ignored, as on some disks); distinct names could
+  // become equal when special characters are replaced, so changed names get a hash
   if (plain == submission && lower(plain) != "class" && lower(plain) != "crosscheck") return plain;
   return fmt::format("{}-{:08x}", plain, crosscheck::Fnv1a::of(submission) & 0xffffffffu);
 }
@@ -281,7 +282,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const st
     const std::lock_guard<std::mutex> lock(speaking);
     ++done, graded += !known;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // excludes submissions with an earlier result, which cost no time; the time of the others is unknown
+    // estimates the remaining time without submissions that have an earlier result, which take no time
     const std::size_t left = submissions.size() - done;
     fmt::print(
         stderr, "{} of {}: {}{}{}\n", done, submissions.size(), submissions[i].name, known ? " (graded before)" : "",

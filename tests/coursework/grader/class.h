@@ -1,4 +1,4 @@
-// Grades a whole class: table and statistics.
+// Grades a whole class, and writes its table and statistics.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +14,17 @@ namespace coursework {
 
 struct GradedSubmission {
   Result result;        // including the rubric's changes
-  std::string failure;  // reason, if it could not be graded
-  std::string id;       // the student's id, or those of a group; empty: unknown
+  std::string failure;  // reason, if the submission could not be graded
+  std::string id;       // the student's id, or the ids of a group; empty if unknown
   bool late = false;
   std::vector<std::string> moved;  // changed points of regraded tests: "2.4 3 -> 5"
 };
 
 /// Grades all submissions in the order of names, options.jobs in parallel. Writes NAME.json (before the rubric) and
-/// NAME.html of each submission to `out`. Reads results that an earlier run of this program finished with the same
-/// seed, sandbox and assignment, if the submission is unchanged. `only`: tests to grade again if there is an earlier
-/// result of the same files, seed and sandbox, by any version of program and assignment; other tests keep their
-/// results, and all results are written at the end.
+/// NAME.html of each submission to `out`. Reuses results that an earlier run of this program finished with the same
+/// seed, sandbox and assignment, if the submission is unchanged. `only`: tests to grade again for submissions with an
+/// earlier result (of the same files, seed and sandbox, by any version of program and assignment). Their other tests
+/// keep their results, and all results are written at the end.
 std::vector<GradedSubmission> grade_class(const Assignment& assignment, const std::vector<Handed>& submissions,
                                           const Sandbox& sandbox, const GradeOptions& options,
                                           const std::filesystem::path& out, const Rubric& rubric = {},
@@ -35,9 +35,9 @@ std::set<std::string> tests_named(const Assignment& assignment, const std::vecto
 
 /// One row per submission: name, id, lateness, total points and points per part (public and hidden together), remark.
 std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all);
-/// Points of the tests of a part, or of all parts if `part` is empty; empty if any of them could not be graded.
+/// Text of the points in a part, or in all parts if `part` is empty; empty if any test could not be graded.
 std::string points_in(const GradedSubmission& one, std::string_view part = "");
-/// The reason why the submission or one of its tests was not graded; otherwise Result::remark.
+/// The reason why the submission or one of its tests was not graded, otherwise Result::remark.
 std::string remark_of(const GradedSubmission& one);
 
 /// The table for the terminal, followed by the statistics.

@@ -41,8 +41,8 @@ std::uint64_t fresh_seed() { return std::random_device()() % 1000000000; }
 
 constexpr auto seed_file = "seed.txt";
 
-/// Sets the seed of the hidden tests: the given one, otherwise from the lecturer's secret, otherwise a fresh one, which
-/// is printed.
+/// Sets the seed of the hidden tests: the given seed, otherwise one derived from the lecturer's secret, otherwise a
+/// fresh one, which is printed.
 void choose_seed(const GradeCommand& command, GradeOptions& options) {
   std::string secret;
   if (const char* named = std::getenv("CROSSCHECK_SECRET")) secret = named;
@@ -53,7 +53,7 @@ void choose_seed(const GradeCommand& command, GradeOptions& options) {
     options.seed = crosscheck::Fnv1a::of(secret);
     options.secret = true;
   } else if (command.all) {
-    // all submissions of a class, and a resumed run, use the same seed
+    // the seed is kept in a file, so that all submissions of a class and a resumed run use the same one
     const fs::path kept = crosscheck::path_inside(command.out, seed_file);
     options.seed = fs::exists(kept) ? std::strtoull(content_of_file(kept).c_str(), nullptr, 10) : fresh_seed();
   } else {
@@ -67,10 +67,10 @@ Texts texts_of(const fs::path& folder, const std::string& name, const std::strin
   return Texts::read(file.string());
 }
 
-/// Verifies that the sandbox hides the secrets: a sandbox that shares the file system hides only private folders.
+/// Verifies that the sandbox hides the secrets. A sandbox that shares the file system hides only private folders.
 void require_hidden(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox) {
   if (sandbox.name() == "bare") return;
-  std::vector<std::pair<fs::path, fs::path>> secrets;  // protected paths, and the folder to make private for each
+  std::vector<std::pair<fs::path, fs::path>> secrets;  // a protected path, and the folder that would have to be private
   for (const char* secret : {"tests.cpp", "solution", "mistakes.txt"})
     secrets.emplace_back(assignment.folder() / secret, folder_of_coursework());
   if (!command.secret_file.empty())
@@ -127,7 +127,7 @@ void grade_all(const Assignment& assignment, const GradeCommand& command, const 
   for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
 }
 
-/// File names by which a class is recognised; empty for whole programs.
+/// File names by which the folder of a class is recognised; empty for whole programs.
 std::vector<std::string> class_files(const Assignment& assignment) {
   std::vector<std::string> files = wanted_files(assignment);
   if (has_python(assignment))
@@ -135,7 +135,7 @@ std::vector<std::string> class_files(const Assignment& assignment) {
   return files;
 }
 
-/// The submissions of a class; prints which other entries are skipped.
+/// The submissions of a class; prints which other entries of the folder are skipped.
 std::vector<Handed> class_in(const std::string& folder) {
   std::vector<std::string> skipped;
   std::vector<Handed> submissions = submissions_in(folder, &skipped);

@@ -19,7 +19,7 @@ struct GradeCommand {
 };
 int grade_command(const GradeCommand& command);
 
-/// The secret in the file that --secret names: its first line. Throws InputError if it is empty.
+/// The secret: the first line of the file that --secret names. Throws InputError if the line is empty.
 std::string secret_in(const std::string& file);
 
 struct AssignmentCommand {

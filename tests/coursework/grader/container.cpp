@@ -1,4 +1,5 @@
-// One CPU, no new namespaces, memory sampled twenty times a second; kills all remaining processes at the end.
+// Runs a command on one CPU, without new namespaces; samples its memory twenty times a second, and kills all remaining
+// processes at the end.
 #include "tests/coursework/grader/container.h"
 
 #include <fcntl.h>
@@ -25,7 +26,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// Runs between fork and exec. Returns false on any failure.
+/// Called between fork and exec. Returns false on any failure.
 bool close_namespaces() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
   if (!filter) return false;
@@ -60,7 +61,7 @@ std::vector<pid_t> descendants() {
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     std::string stat;
     std::getline(std::ifstream(entry.path() / "stat"), stat);
-    // the command's name may contain any character, including a parenthesis
+    // the fields after the command's name, which may contain any character, including a parenthesis
     std::istringstream rest(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
     char state = 0;
     pid_t parent = 0;
@@ -87,7 +88,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
                        const fs::path& log, const Container& container) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (file < 0) throw std::runtime_error(log.string() + ": cannot be written");
-  // adopts orphaned descendants, so that they are counted, and killed at the end
+  // adopts orphaned descendants, so that they are measured, and killed at the end
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const auto words = crosscheck::c_strings(command), named = crosscheck::c_strings(environment);
   const auto begin = std::chrono::steady_clock::now();

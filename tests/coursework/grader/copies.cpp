@@ -1,4 +1,4 @@
-// Tables of the marks that systems and users add to copies, and grade.toml.
+// Parses grade.toml, and the marks that systems and users add to names of copies (tables).
 #include "tests/coursework/grader/copies.h"
 
 #include <fmt/ranges.h>
@@ -18,14 +18,14 @@ namespace coursework {
 namespace {
 
 constexpr const char* leading[] = {"copy of ", "backup of ", "old_", "old ", "bak_"};
-/// Includes the separator, so that "threshold" stays unchanged.
+/// The marks include the separator, so that "threshold" stays unchanged.
 constexpr const char* trailing[] = {
     " - copy", " - kopie", " - 副本", "- copy", "-copy",     "_copy", " copy",     "_old",  "-old",   ".old",
     " old",    ".orig",    "_orig",   "-orig",  "_original", "_bak",  ".bak",      "-bak",  "~",      "_backup",
     "-backup", ".backup",  " backup", ".save",  "_prev",     "-prev", "_previous", " 副本", "的副本", "副本"};
 const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
                                               "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
-/// Libraries that some students hand in, by prefix of the folder's name; not vecmath, which students may change.
+/// Libraries that some students hand in, by prefix of the folder's name. Without vecmath, which students may change.
 constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
                                            "imgui", "nanogui",    "boost",      "assimp", "sdl2",
                                            "stb",   "cmakefiles", "cmake-build"};
@@ -36,7 +36,7 @@ bool ends(const std::string& text, const std::string& with) {
   return text.size() > with.size() && text.ends_with(with);
 }
 
-/// Removes " (2)" and "(2)", and a number after " copy" and " 副本"; returns false if there is none.
+/// Removes " (2)" and "(2)", or a number after " copy" and " 副本"; returns false if there is none.
 bool cut_number(std::string& stem) {
   std::size_t at = stem.size();
   const bool bracket = at > 0 && stem[at - 1] == ')';
@@ -109,11 +109,11 @@ bool is_utf8(std::string_view text) {
 
 namespace {
 
-/// The text converted to UTF-8; nothing if it is not in this encoding.
+/// The text converted to UTF-8; nullopt if it is not in this encoding.
 std::optional<std::string> converted(std::string_view text, const char* encoding) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
   if (converter == iconv_t(-1)) return {};
-  std::string out(2 * text.size(), '\0');  // two bytes become three at most
+  std::string out(2 * text.size(), '\0');  // two bytes become at most three
   char *from = const_cast<char*>(text.data()), *to = out.data();
   std::size_t left = text.size(), room = out.size();
   const bool whole = iconv(converter, &from, &left, &to, &room) != std::size_t(-1) && left == 0;
@@ -144,7 +144,7 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
   if (a == b) return false;
   if (is_backup(a) != is_backup(b)) return is_backup(b);
   const std::vector<std::string> in_a = folders_above(a), in_b = folders_above(b);
-  std::string root_a, root_b;  // the roots of the two copies: their common folder, and one more folder if there is one
+  std::string root_a, root_b;  // common folder, and the next folder of each path if there is one
   std::size_t i = 0;
   for (; i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]; ++i) root_a += in_a[i] + "/";
   root_b = root_a;

@@ -10,24 +10,25 @@
 namespace coursework {
 
 /// The path without copy marks in its last component: "src/a - Copy (2).cpp", "src/Copy of a.cpp" and "src/a_old.cpp"
-/// all become "src/a.cpp". The path itself if there are none.
+/// all become "src/a.cpp". Other paths are returned unchanged.
 std::string without_copy_marks(const std::string& path);
-/// True if the name, or the name of a folder above ("old/", "backup/", "src (1)/"), marks a copy.
+/// True if the file's name, or the name of a folder above it ("old/", "backup/", "src (1)/"), marks a copy.
 bool is_backup(const std::string& path);
-/// True if a folder above contains a third-party library ("glfw-3.1.2/", "eigen/") or build output.
+/// True if a folder above the file contains a third-party library ("glfw-3.1.2/", "eigen/") or build output.
 bool in_library(const std::string& path);
 
 bool is_utf8(std::string_view text);
-/// The text as UTF-8 without a byte-order mark. Converts UTF-16 with such a mark, which some editors write, and GB18030
-/// (which includes GBK and GB2312): there the second byte of a character may be the backslash that continues a comment.
+/// The text as UTF-8 without a byte-order mark. Converts UTF-16 with a byte-order mark, which some editors write, and
+/// GB18030 (which includes GBK and GB2312), in which the second byte of a character may be the backslash that continues
+/// a comment.
 std::string plain_utf8(std::string text);
 
-/// Order between two versions of a file: prefers the one in the copy of the whole with more files. A copy is everything
-/// in the folder at which the two paths diverge.
+/// Order of two versions of a file: prefers the version in the copy with more files. A copy is everything in the folder
+/// at which the two paths diverge.
 class FullerCopy {
  public:
   explicit FullerCopy(std::vector<std::string> paths) : paths_(std::move(paths)) {}
-  /// Order: non-backups before backups, then the fuller copy, the shallower file, the alphabet.
+  /// Returns true if `a` is preferred. The criteria are: no backup, the fuller copy, fewer folders, the alphabet.
   bool operator()(const std::string& a, const std::string& b) const;
 
  private:
@@ -37,7 +38,7 @@ class FullerCopy {
 
 /// Contents of grade.toml.
 struct StudentChoice {
-  std::string folder;                          // the folder to grade, with a trailing slash; empty: all
+  std::string folder;                          // the folder to grade, with a trailing slash; empty for all folders
   std::vector<std::string> left_out;           // files or folders
   std::map<std::string, std::string> classes;  // role ("chain") -> class
 
@@ -46,8 +47,8 @@ struct StudentChoice {
 constexpr const char* choice_file = "grade.toml";
 constexpr std::size_t largest_choice = 1u << 14;  // byte
 
-/// Throws crosscheck::InputError with line and key for invalid TOML, an unknown key, a folder or file that is not among
-/// `paths`, classes if `roles` is empty, or an unknown role.
+/// Parses the text of grade.toml. Throws crosscheck::InputError with line and key for invalid TOML, an unknown key, a
+/// folder or file that is not among `paths`, classes if `roles` is empty, or an unknown role.
 StudentChoice read_choice(const std::string& text, const std::vector<std::string>& paths,
                           const std::vector<std::string>& roles);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* addr2line = "/usr/bin/addr2line";
 constexpr std::size_t most_addresses = 40;
 
-/// Joins the words with single blanks, because messages are broken into lines.
+/// Replaces all white space by single blanks, because messages are broken into lines.
 std::string in_one_line(const std::string& text) {
   std::istringstream words(text);
   std::string line;
@@ -24,21 +24,22 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
-/// Converts an index below zero back from its unsigned representation.
+/// Converts the unsigned representation of a negative index back.
 long signed_of(const std::string& digits) { return static_cast<long>(std::strtoull(digits.c_str(), nullptr, 10)); }
 
-/// Parses "PATH:LINE" into path and line; returns false if it is not a source line.
+/// Parses "PATH:LINE"; returns false if `place` is not a source line.
 bool parse_place(const std::string& place, fs::path& path, int& line) {
   static const std::regex form("(/.*):([0-9]{1,6})( .*)?");
   std::smatch found;
-  constexpr std::size_t longest = 4096;  // std::regex uses stack for each character, and #line can name any file
+  constexpr std::size_t longest = 4096;  // std::regex needs stack per character, and #line can name any file
   if (place.size() > longest || !std::regex_match(place, found, form)) return false;
   path = found[1].str();
   line = std::atoi(found[2].str().c_str());
   return line > 0;
 }
 
-/// The first place outside of libraries and signal handlers; returns false if it is not in a file of the student's.
+/// Finds the first place outside of libraries and signal handlers; returns false if it is not in a file of the
+/// student's.
 bool first_of_student(std::istream& places, Crash& crash) {
   for (std::string place; std::getline(places, place);) {
     fs::path path;
@@ -91,7 +92,7 @@ std::optional<Crash> crash_of(const Sandbox& sandbox, const fs::path& program, c
   Crash crash = crash_in(captured, addresses);
   crash.which = static_cast<std::size_t>(last - answers.begin());
   if (addresses.empty()) return {};
-  // its line tables are under the student's control
+  // runs in the sandbox, because the student controls the line tables that addr2line parses
   Job job{.command = {fs::canonical(addr2line).string(), "-i", "-e", program.string()},
           .readable = {program.parent_path()}};
   job.command.insert(job.command.end(), addresses.begin(), addresses.end());

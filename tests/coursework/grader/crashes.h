@@ -1,4 +1,4 @@
-// Locates a crash of a student's code by running it again with every index checked.
+// Locates a crash of a student's code by running it again with checks of every index.
 #pragma once
 
 #include <filesystem>
@@ -20,16 +20,17 @@ struct Crash {
   std::size_t which = 0;  // index of the case, from 0
 };
 
-/// Parses the output of a program of Builder::checked(): the requested index from the check's message, and the
-/// addresses of the call stack. Students may have printed anything else, so only numbers are used.
+/// Parses the output of a program of Builder::checked(). Returns the requested index from the check's message, and the
+/// `addresses` of the call stack. Uses only numbers, because students may have printed anything else.
 Crash crash_in(const std::string& captured, std::vector<std::string>& addresses);
 
-/// Runs the program of Builder::checked() and finds the line of the crash. Empty if it does not crash, or crashes
-/// outside of the student's lines: an index error in our calls, on an answer of the wrong size, is not the student's.
+/// Runs the program of Builder::checked() and finds the line of the crash. Returns nullopt if it does not crash, or
+/// crashes outside of the student's lines: an index error in our calls, caused by an answer of the wrong size, is not
+/// the student's.
 std::optional<Crash> crash_of(const Sandbox& sandbox, const std::filesystem::path& program,
                               const std::vector<Case>& cases);
 
-/// The crash as a sentence; `told` is the index of the case, from 0, that the feedback describes.
+/// The crash as a sentence; `told` is the index of the case (from 0) that the feedback describes.
 std::string crash_text(const Texts& common, const Crash& crash, std::size_t told);
 
 }  // namespace coursework

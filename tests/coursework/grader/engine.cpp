@@ -1,5 +1,6 @@
-// engine: runs a student's part in the sandbox as a program of the engine protocol (reference/protocol/PROTOCOL.md).
-// Converts scene.json into the numbers of one call, and the answer into the trajectory.
+// The command `engine` runs a student's part in the sandbox as a program of the engine protocol
+// (reference/protocol/PROTOCOL.md). Converts scene.json into the numbers of one call, and the answer into the
+// trajectory.
 #include "tests/coursework/grader/engine.h"
 
 #include <fmt/format.h>
@@ -26,13 +27,13 @@ namespace {
 using crosscheck_engine::Scene;
 using crosscheck_engine::Vec;
 
-/// Limits per run. The charts' scenes have one moving particle and take at most a second; there are a thousand runs, so
+/// Limits per run. The charts' scenes have one moving particle and take at most a second. There are a thousand runs, so
 /// an endless loop must be stopped early.
 constexpr Limits engine_limits{
     .cpu = 10, .wall = 300, .idle = 5, .memory = 1024, .processes = 0, .answers = 1 << 18, .file = 1};
 
-/// Limit on the CPU time (s) of all runs of a part: several times the time of the hand-out's rules. Later runs fail at
-/// once.
+/// Limit on the CPU time (s) of all runs of a part: several times what the hand-out's rules need. Beyond the limit,
+/// runs fail immediately.
 constexpr double most_in_all = 300;
 
 /// CPU time of a part so far, stored in a file beside its program, because runs are separate, parallel processes.
@@ -86,7 +87,7 @@ int engine_command(const EngineCommand& command) {
   const auto begin = std::chrono::steady_clock::now();
   double cpu = 0;
   const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits, &cpu).at(0);
-  // an idle wait has stalled the charts as well
+  // a program that waits without using CPU time delays the charts too
   const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   spent.add(answer.how == How::waiting ? clock : cpu);
   const std::size_t n = scene.x.size(), frames = static_cast<std::size_t>(scene.samples) + 1;
@@ -116,12 +117,12 @@ bool has_engine(const Assignment& assignment) { return fs::exists(assignment.fol
 
 void keep_engine(const fs::path& program, const std::string& part, const Sandbox& sandbox, const fs::path& folder) {
   fs::create_directories(folder);
-  const std::string name = "your-" + part;  // in addition to mysim's rule of the same name
+  const std::string name = "your-" + part;  // distinct from mysim's rule of the same name
   const fs::path kept = folder / (name + ".program"), script = folder / name;
   fs::copy_file(program, kept, fs::copy_options::overwrite_existing);
   fs::permissions(kept, fs::perms(0755));
-  // a single file that changes with the program, as caches of results expect; the two may be moved together; reports
-  // may be named after files that a student handed in
+  // The script contains a hash of the program, because caches of results read only the script. It finds the program
+  // next to itself, so both files can be moved together, into a folder with any name
   crosscheck::write_file(
       script,
       fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine \"$(dirname -- \"$0\")\"/{} {} \"$1\" \"$2\" --lane {}\n",

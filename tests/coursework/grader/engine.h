@@ -1,5 +1,4 @@
-// Students' parts as engines in crosscheck's charts, for assignments with a
-// tests/coursework/a1-steppers/calls_engine.cpp.
+// Makes students' parts available as engines in crosscheck's charts, for assignments with a file calls_engine.cpp.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +11,7 @@ namespace coursework {
 
 bool has_engine(const Assignment& assignment);
 
-/// Writes FOLDER/your-PART, a program of the engine protocol that runs the student's program in this sandbox.
+/// Writes FOLDER/your-PART, a script that follows the engine protocol and runs the student's program in this sandbox.
 void keep_engine(const std::filesystem::path& program, const std::string& part, const Sandbox& sandbox,
                  const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// Least squares by Eigen.
+// Least-squares fits with Eigen.
 #include "tests/coursework/grader/fit.h"
 
 #include <Eigen/QR>

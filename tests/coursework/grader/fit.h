@@ -10,11 +10,11 @@ namespace coursework {
 
 struct NamedTerm {
   std::string name;  // "h k1"
-  double right = 0;  // its coefficient in the correct sum
+  double right = 0;  // the term's coefficient in the correct sum
 };
 
-/// Coefficients of the linear combination of the columns that equals `sum`, by least squares; empty if none fits within
-/// `tolerance`, or if it is not unique.
+/// Coefficients of the linear combination of the columns that equals `sum`, by least squares. Empty if no combination
+/// is within `tolerance`, or if it is not unique.
 Numbers coefficients(const std::vector<Numbers>& columns, const Numbers& sum, double tolerance);
 
 /// Text such as "x + h (1/2 k1)"; omits terms with zero coefficients.

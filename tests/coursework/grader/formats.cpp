@@ -1,4 +1,4 @@
-// The table of formats: text, Gradescope, JUnit, Autolab.
+// The formats text, Gradescope, JUnit and Autolab, and their table.
 #include "tests/coursework/grader/formats.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ std::string clean(const std::string& text) {
 }
 
 std::string defused(const std::string& text) {
-  // spreadsheets ignore leading blanks and quotes, and text up to a separator; some read full-width signs as ASCII
+  // spreadsheets ignore leading blanks, leading quotes and text up to a separator; some read full-width signs as ASCII
   static constexpr std::string_view signs[] = {"=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠"};
   std::string safe;
   bool begins = true;
@@ -80,7 +80,7 @@ namespace {
 
 using crosscheck::Json;
 
-/// With a plot the text is HTML; the plot is an embedded image, which can neither run scripts nor restyle the page.
+/// With a plot, the output is HTML: the plot is an embedded image, which can neither run scripts nor restyle the page.
 void put_output(Json& to, const TestResult& test, const std::string& text) {
   to["output"] = test.plot.empty() ? text
                                    : "<pre>" + escaped(text) + "</pre><img alt=\"your numbers and the right ones\" " +
@@ -122,7 +122,7 @@ std::string gradescope(const Result& result, const Texts& common) {
       {"test_output_format", "text"},
       {"test_name_format", "text"},
       {"visibility", "visible"},
-      // the harness's own output; it contains nothing of the student's program, and may name hidden tests
+      // the harness's own output, which contains nothing of the student's program and may name hidden tests
       {"stdout_visibility", "hidden"},
       {"extra_data",
        {{"assignment", result.assignment},
@@ -130,7 +130,7 @@ std::string gradescope(const Result& result, const Texts& common) {
         {"lane", result.sandbox},
         {"complete", result.complete}}},
       {"tests", std::move(tests)},
-      // public points only, because a leaderboard is visible before the grades
+      // only public points, because a leaderboard is visible before the grades
       {"leaderboard", Json::array({Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}}})},
   };
   return crosscheck::dump(out, 2) + "\n";
@@ -140,7 +140,7 @@ namespace {
 
 std::string xml(const std::string& text) {
   std::string out;
-  for (const char c : escaped(clean(text))) c == '\n' ? out += "&#10;" : out += c;  // kept in attributes too
+  for (const char c : escaped(clean(text))) c == '\n' ? out += "&#10;" : out += c;  // kept in XML attributes too
   return out;
 }
 
@@ -178,7 +178,7 @@ void add_test(Suite& suite, const Result& result, const TestResult& test, const 
                              test.hidden ? " (" + xml(common.of("hidden")) + ")" : "", seconds, inside);
 }
 
-/// Files and compiler as a suite of one test.
+/// Files and compilation as a suite of one test.
 Suite preflight_of(const Result& result) {
   Suite suite{"preflight", ""};
   suite.tests = 1;

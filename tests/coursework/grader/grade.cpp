@@ -1,4 +1,4 @@
-// Builds the parts, runs the tests in one process each, judges answers, and searches for causes.
+// Builds the parts, runs each test in its own process, judges answers, and searches for causes.
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
@@ -114,12 +114,12 @@ class Grading {
         continue;
       }
       const std::string why = said(options_.common, one.error);
-      // a file with several parts has one remark
+      // a remark on a file with several parts is reported once
       auto& all = result_.preflight;
       if (std::find(all.begin(), all.end(), why) == all.end()) all.push_back(why);
       unusable_[part] = {one.missing ? How::missing : How::not_compiled, {}, one.missing ? one.error.with.at(0) : why};
     }
-    // remarks that prevent a part from running precede these
+    // appends the remarks that do not prevent a part from running
     for (const auto& [part, one] : built)
       for (const Remark& note : one.notes) result_.preflight.push_back(said(options_.common, note));
   }
@@ -152,16 +152,16 @@ class Grading {
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// The ungraded test with a call that this one makes as well, with other numbers: it would take as long again. Empty
-  /// if there is none.
+  /// The ungraded test that made one of these calls (with other numbers), which would take as long again; empty if
+  /// there is none.
   std::string ungraded_before(const std::vector<Case>& cases) const {
     for (const Case& each : cases)
       if (const auto found = ungraded_calls_.find(each.call); found != ungraded_calls_.end()) return found->second;
     return "";
   }
 
-  /// Code may be twenty times as slow as the official solution, and may always use the minimum limit: runs the official
-  /// solution only if that is not enough.
+  /// Code may be twenty times as slow as the official solution, and may always use the minimum limit. Runs the official
+  /// solution only if the minimum is exceeded.
   std::vector<Answer> answers_to(const std::string& part, const std::vector<Case>& cases) {
     const auto too_slow = [](const Answer& answer) { return answer.how == How::out_of_time; };
     const Limits least = limits_for(0, options_.least_cpu);
@@ -176,7 +176,7 @@ class Grading {
     return answers;
   }
 
-  /// Gives feedback on the first wrong call; if all are right, the plot shows the first one.
+  /// Gives feedback on the first wrong call. If all calls are right, the plot shows the first one.
   void judge_test(const TestRun& test_run, const std::vector<Answer>& raw, TestResult& one) {
     std::size_t shown = 0;
     one.said.clear();
@@ -222,7 +222,7 @@ class Grading {
                      column_text(options_.own, what, what.plot_y)});
   }
 
-  /// For the first failing test of a function: the numbers of a case and the observations on them.
+  /// The numbers of a case and the observations on them, for the first failing test of a function; otherwise empty.
   std::vector<std::string> shown_beside(const TestRun& test_run, const TestResult& one, std::size_t k) const {
     if (failed_already(test_run, one)) return {};
     const Case& what = test_run.cases[k];
@@ -231,7 +231,7 @@ class Grading {
             seen_text(options_.common, options_.own, what, answer, others_of(what, test_run.cases, test_run.answers))};
   }
 
-  /// True if an earlier public test of the same function failed, whose feedback then has the observations.
+  /// True if an earlier public test of the same function failed, whose feedback then shows the observations.
   bool failed_already(const TestRun& test_run, const TestResult& one) const {
     const std::string function = function_of(options_.own, one.part, test_run.cases[0]);
     for (std::size_t i = 0; &result_.tests[i] != &one; ++i)
@@ -256,7 +256,8 @@ class Grading {
     return what.row_size == 1 ? "" : fmt::format(" x {:.3g}", what.row_size);
   }
 
-  /// Rejects memorised answers: the public tests' numbers and answers are known, so a table of them earns nothing.
+  /// Rejects memorised answers: cancels the points of a public test if its hidden form fails, because the numbers and
+  /// answers of public tests are known.
   void require_unseen() {
     for (TestResult& shown : result_.tests)
       for (const TestResult& other : result_.tests)
@@ -267,14 +268,14 @@ class Grading {
         }
   }
 
-  /// The part's program that checks every index, built on first use. Empty if it cannot be built.
+  /// The part's program that checks every index, built on first use; empty if it cannot be built.
   const fs::path& checked_program(const std::string& part) {
     const auto [at, added] = checked_.try_emplace(part);
     if (added) at->second = builder_->checked(submission_, part, scratch_.path / ("checked-" + part)).program;
     return at->second;
   }
 
-  /// Adds the line, and the index, to each crashed test of the part.
+  /// Adds the line of the crash, and the index, to each crashed test of the part.
   void tell_crashes(const std::string& part) {
     const std::string& guess = options_.common.of("crash.guess");
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
@@ -290,7 +291,8 @@ class Grading {
     }
   }
 
-  /// An index out of range that does not end the unchecked program; "" if there is none.
+  /// The cause if the checked program finds an index out of range that does not end the unchecked program; otherwise
+  /// "".
   std::string index_cause(const std::string& part, const std::vector<TestRun>& runs,
                           const std::vector<TestResult*>& tests) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -321,17 +323,17 @@ class Grading {
         of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
-    // evidence of an experiment outranks a similarity
+    // the evidence of an experiment is stronger than a similarity to a known mistake
     std::string cause =
         suspect.key.empty() ? cause_text(options_.common, options_.own, names) : said(options_.common, suspect);
     if (cause == options_.common.of("no_cause"))
       if (const std::string index = index_cause(part, of_part, tests); !index.empty()) cause = index;
-    // a test's own hint is independent of the others: it could contradict a known cause, and if there is none, the
-    // first failing test has the most information
+    // the hint on a single test could contradict a known cause; without one, the hint on the function's first failing
+    // test is the most informative
     const bool known = cause != options_.common.of("no_cause"),
                seen = suspect.key.empty() && look_closer(part, of_part, tests, wrong);
     for (TestResult* test : wrong) {
-      test->cause = known || !seen ? cause : "";  // an observation outranks the remark that nothing known matches
+      test->cause = known || !seen ? cause : "";  // an observation is more useful than "no known mistake"
       const std::string before = failed_before(*test, wrong);
       if (known || (seen && before.empty())) continue;
       if (const std::string hint = hint_text(options_.common, options_.own, test->id, before); !hint.empty())
@@ -339,7 +341,7 @@ class Grading {
     }
   }
 
-  /// The first of these tests for the same function; "" if it is this one.
+  /// The first failing test for the same function as `test`, or "" if that is `test` itself.
   std::string failed_before(const TestResult& test, const std::vector<TestResult*>& wrong) const {
     const auto function = [&](const TestResult& one) {
       return function_of(options_.own, one.part,
@@ -350,7 +352,7 @@ class Grading {
     return "";
   }
 
-  /// Adds observations to public tests by running their calls again with changes. Returns false if there are none.
+  /// Adds observations to public tests by repeating their calls with modified inputs. Returns false if there are none.
   bool look_closer(const std::string& part, const std::vector<TestRun>& runs, const std::vector<TestResult*>& tests,
                    const std::vector<TestResult*>& wrong) {
     std::vector<bool> told_at;
@@ -368,9 +370,9 @@ class Grading {
   }
 
   /// The sentence that explains the most lost points: a cause, or the first line on a test. If no points were lost, the
-  /// first remark that precedes the tests.
+  /// first remark before the tests.
   std::string most_helpful() const {
-    std::map<std::string, std::pair<bool, double>> lost;  // (a file is there, points)
+    std::map<std::string, std::pair<bool, double>> lost;  // sentence -> (a file was handed in, points)
     std::string most = result_.preflight.empty() ? "" : result_.preflight.front();
     for (const TestResult& test : result_.tests) {
       if (passed(test) || test.said == options_.common.of("shown_only")) continue;
@@ -385,7 +387,7 @@ class Grading {
     return most;
   }
 
-  /// Adds measured quantities that no test judges.
+  /// Adds remarks on measured quantities that no test judges.
   void tell_measured() {
     if (!assignment_.measured) return;
     for (const Part& part : assignment_.parts)
@@ -395,7 +397,8 @@ class Grading {
           result_.preflight.push_back(std::move(text));
   }
 
-  /// Keeps the programs of parts that answered every call: others would crash or hang in every run of the charts.
+  /// Keeps the programs of parts that answered every call. All other programs would crash or hang in every run of the
+  /// charts.
   void keep_engines() const {
     if (options_.engines.empty() || !has_engine(assignment_) || submission_.python) return;
     for (const auto& [part, program] : programs_) {
@@ -415,11 +418,11 @@ class Grading {
   std::unique_ptr<Builder> builder_;
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;           // by part
-  std::map<std::string, fs::path> checked_;            // by part: programs that check every index
-  std::map<std::string, Answer> unusable_;             // by part: missing, or does not compile
-  std::map<std::string, std::string> ungraded_calls_;  // by ungraded call: the test that was not graded because of it
+  std::map<std::string, fs::path> checked_;            // part -> program that checks every index
+  std::map<std::string, Answer> unusable_;             // part -> how it is unusable: missing, or does not compile
+  std::map<std::string, std::string> ungraded_calls_;  // call that made a test ungraded -> this test
   std::vector<TestRun> test_runs_;                     // parallel to result_.tests
-  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // shown once per kind
+  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // small cases are shown once
   Result result_;
 };
 

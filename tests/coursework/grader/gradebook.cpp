@@ -1,5 +1,5 @@
 // Exports of Moodle (mod/assign/gradingtable.php, grade/export/txt), of Canvas (lib/gradebook_exporter.rb), and other
-// tables: their columns, and the student of each row.
+// tables. Finds their columns, and the student of each row.
 #include "tests/coursework/grader/gradebook.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ std::string folded(const std::string& text) {
   return begin == std::string::npos ? "" : lower(text.substr(begin, end - begin + 1));
 }
 
-/// Letters and digits only, in lower case: "Lovelace, Ada" of an export is "lovelaceada" in Canvas's file names, and
+/// Letters and digits only, in lower case: "Lovelace, Ada" in an export is "lovelaceada" in Canvas's file names, and
 /// Moodle drops apostrophes.
 std::string letters_of(const std::string& text) {
   std::string out;
@@ -46,7 +46,7 @@ std::string letters_of(const std::string& text) {
   return out;
 }
 
-/// The name and its parts between separators: "20231234_王小明".
+/// The name and the words between its separators: "20231234_王小明".
 std::set<std::string> parts_of(const std::string& name) {
   std::set<std::string> words{folded(name)};
   std::string word;
@@ -82,7 +82,7 @@ Gradebook::Gradebook(const std::string& layout, const std::filesystem::path& fil
   else if (column_of(id_columns) < 0 && column_of(last_names) < 0)
     require(name_columns, "a table of students (id, name or email)");
   points_ = column_to_fill(column, assignment);
-  // Moodle's worksheet has the maximum in each row, Canvas's gradebook in a row of its own
+  // Moodle's worksheet has the maximum in each row, Canvas's gradebook has it in a separate row
   const int most = layout == "moodle" ? column_of({"maximum grade"}) : points_;
   for (const Record& record : std::span(records_).subspan(1)) {
     std::string text = layout == "moodle" || cell(record, 0).ends_with("Points Possible") ? cell(record, most) : "";
@@ -171,7 +171,8 @@ std::vector<std::size_t> Gradebook::rows_of(const Person& person, const std::str
         }))
       by_name.push_back(i);
   }
-  // the id distinguishes people of the same name; if id and name point to different people, neither counts
+  // the id distinguishes people of the same name; if id and name belong to different people, returns both, so that
+  // nothing is filled in
   if (std::ranges::find_first_of(by_id, by_name) == by_id.end())
     by_id.insert(by_id.end(), by_name.begin(), by_name.end());
   return by_id;

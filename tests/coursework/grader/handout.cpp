@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using crosscheck::write_file;
 namespace {
 
-/// Number of tests and their points as counted by `check`, since some tests exist only in the grader.
+/// Number of tests and sum of points in `check`. Some tests exist only in the grader.
 std::pair<int, int> counted(const Assignment& assignment, const PublicTests& tests) {
   int points = 0, here = 0;
   for (const PublicTest& test : tests.tests)
@@ -35,7 +35,7 @@ void write_public_cases(const PublicTests& tests, const fs::path& folder) {
   write_file(folder / "public_cases.txt", cases.str());
 }
 
-/// Writes README.md, and CMakeLists.txt unless a whole program's starter has one.
+/// Writes README.md. Writes CMakeLists.txt too, unless a whole program's starter has one.
 void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
   std::string built, listed;
@@ -66,7 +66,7 @@ bool ends(const fs::path& file, std::initializer_list<std::string_view> endings)
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view end) { return name.ends_with(end); });
 }
 
-/// True for calls of the student's code, and for the code that finds features in a whole program's answers.
+/// True for files that call the student's code, and for code that extracts features from a whole program's answers.
 bool is_of_check(const std::string& name) {
   for (const char* begin : {"calls", "looks", "motion", "oracles", "replay", "shapes", "springs"})
     if (name.starts_with(begin)) return true;
@@ -79,7 +79,7 @@ bool is_of_vecmath(const std::string& name) {
   return false;
 }
 
-/// A grader source as it appears in `check`, where headers are not in folders of their own.
+/// A grader source as it appears in `check`, where all headers are in the same folder.
 std::string source_in_check(const fs::path& file) {
   std::string text = content_of_file(file);
   for (const std::string folder : {"tests/coursework/classic/", "tests/coursework/check/", "../../check/"})
@@ -90,8 +90,8 @@ std::string source_in_check(const fs::path& file) {
 
 std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterator(folder), fs::directory_iterator()}; }
 
-/// Writes the surroundings of a whole program: vectors under their usual names, drawing functions that do nothing, and
-/// the probes.
+/// Writes the files around a whole program: vectors under their usual names, drawing functions that do nothing, and the
+/// probes.
 void write_surroundings(const fs::path& from, const fs::path& folder) {
   for (const fs::path& file : sorted(from / "stubs"))
     if (is_of_vecmath(file.filename().string()))
@@ -111,8 +111,8 @@ PublicTests public_tests(const Assignment& assignment) {
     all.hidden += test.hidden > 0;
     if (test.points == 0) continue;
     all.tests.push_back({std::string(test.id), std::string(test.part), std::string(test.read), test.points, {}, {}});
-    // for files per part, `check` has the calls alone; for a whole program also the code that finds features in the
-    // answers
+    // With a file per part, `check` contains only the calls. For a whole program it also contains the code that
+    // extracts features from answers.
     if (!test.reduce || assignment.takes_whole_program()) {
       all.tests.back().cases = public_cases(assignment, test);
       all.tests.back().small = small_cases(assignment, test);
@@ -133,7 +133,7 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
     if (name.starts_with("handout."))
-      write_file(folder / name, content_of_file(file));  // the translated handout.zh.md, if there is one
+      write_file(folder / name, content_of_file(file));  // also the translated handout.zh.md, if there is one
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_file(check / name, shown_texts(file));
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_file(check / name, source_in_check(file));
   }

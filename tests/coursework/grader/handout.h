@@ -9,16 +9,16 @@
 
 namespace coursework {
 
-/// The hand-out's cases: every test under its public seed. A test whose raw numbers are reduced first has none, because
-/// the reduction stays with the grader.
+/// The hand-out's cases of all tests, with their public seeds. A test whose raw numbers are reduced has no cases,
+/// because only the grader has the reduction.
 PublicTests public_tests(const Assignment& assignment);
 
-/// Creates the folder and writes handout.md, the starter, check/, CMakeLists.txt and README.md into it; nothing of the
-/// solution, the styles, the mistakes and the tests' own code. Throws InputError if a file cannot be written, and
+/// Creates the folder and writes handout.md, the starter, check/, CMakeLists.txt and README.md into it. Omits the
+/// solution, the styles, the mistakes and the tests' code. Throws InputError if a file cannot be written, and
 /// std::runtime_error if the assignment lacks one.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
-/// Writes the hand-out in Python, with check.py in place of the program `check`. Throws InputError if the assignment is
+/// Writes the hand-out in Python, with check.py instead of the program `check`. Throws InputError if the assignment is
 /// in C++ only.
 void write_python_handout(const Assignment& assignment, const std::filesystem::path& folder);
 

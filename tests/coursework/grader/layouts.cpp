@@ -22,7 +22,7 @@ namespace {
 struct Layout {
   const char* name;
   const char* pattern;
-  int person, late, number, file;  // groups; 0: none
+  int person, late, number, file;  // groups of the pattern, 0 if missing
 };
 constexpr Layout layouts[] = {
     {"Moodle", "(.+)_([0-9]+)_assignsubmission_(file|onlinetext)_?(.*)", 1, 0, 2, 4},
@@ -30,7 +30,7 @@ constexpr Layout layouts[] = {
 };
 
 struct Exported {
-  std::string layout;  // empty: none of the known layouts
+  std::string layout;  // empty if the name has no known layout
   std::string person, id, file;
   bool late = false;
   std::string key() const { return id.empty() ? person : person + "_" + id; }
@@ -40,7 +40,7 @@ Exported taken_apart(const std::string& name) {
   for (const Layout& layout : layouts)
     if (const auto parts = crosscheck::Pattern(layout.pattern).match(name)) {
       const auto group = [&](int i) { return (*parts)[static_cast<std::size_t>(i)]; };
-      // Canvas numbers resubmissions: rk4-1.cpp
+      // Canvas appends a number to resubmissions: rk4-1.cpp
       return {layout.name, group(layout.person), group(layout.number),
               crosscheck::Pattern("-[0-9]+(\\.[^.]+)$").replaced_in(group(layout.file), "$1"),
               layout.late > 0 && !group(layout.late).empty()};
@@ -50,7 +50,7 @@ Exported taken_apart(const std::string& name) {
 
 constexpr const char* gradescope_file = "submission_metadata.yml";
 
-/// People by submission: lines "submission_N:", with "- :name: NAME" of each person below, then ids.
+/// People by submission. The file has lines "submission_N:", followed by "- :name: NAME" for each person, then ids.
 std::map<std::string, std::vector<Person>> gradescope_people(const fs::path& folder) {
   std::map<std::string, std::vector<Person>> people;
   std::ifstream in(crosscheck::path_inside(folder, gradescope_file));
@@ -75,7 +75,7 @@ bool left_by_system(const std::string& name) {
   return name.starts_with("._") || std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// The name on one line. A name with characters that are replaced by '?' ends in a hash.
+/// The name on one line. If characters must be replaced by '?', a hash is appended.
 std::string shown_name(const std::string& name) {
   if (const std::string text = plain_utf8(name); crosscheck::is_printable(text)) return text;
   return fmt::format("{} ({:08x})", printable(crosscheck::printable(name)), crosscheck::Fnv1a::of(name) & 0xffffffffu);
@@ -150,11 +150,11 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
   if (!fs::is_directory(folder)) return "";
   if (fs::exists(folder / gradescope_file)) return "Gradescope";
   std::map<std::string, std::set<std::string>> people;  // by layout
-  std::map<std::string, int> holds;                     // number of folders with a source of this name
+  std::map<std::string, int> holds;                     // source name -> number of folders with such a source
   int clones = 0, archives = 0;
   for (const fs::path& entry : entries_of(folder)) {
     const std::string name = entry.filename().string();
-    if (name[0] == '.') continue;  // settings and histories of editors
+    if (name[0] == '.') continue;  // skips settings and histories of editors
     const Exported one = taken_apart(name);
     if (!one.layout.empty()) people[one.layout].insert(one.key());
     if (fs::is_directory(entry)) {
@@ -170,7 +170,7 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
   for (const auto& [layout, who] : people)
     if (who.size() > 1) return layout;
   if (clones > 1) return "Git";
-  // two folders are one program and a copy of it
+  // requires more than two folders, because two could be a program and its copy
   const bool alike = std::any_of(holds.begin(), holds.end(), [](const auto& each) { return each.second > 2; });
   return alike || archives > 2 ? "folders" : "";
 }

@@ -9,17 +9,17 @@
 
 namespace coursework {
 
-/// The submissions in a folder, in the order of names. Removes the additions of Moodle, Canvas and Gradescope from file
-/// names; several files of one person are one submission. Otherwise every entry is a submission, except files that
-/// operating systems and Git leave behind, whose names are appended to `skipped`. Names are printable and distinct.
-/// Throws InputError if `path` is not a folder.
+/// The submissions in a folder, in the order of names. If the names are those of Moodle, Canvas or Gradescope, removes
+/// their additions, and makes the files of one person one submission. Otherwise every entry is a submission, except
+/// files that operating systems and Git leave behind, whose names are appended to `skipped`. Names are printable and
+/// distinct. Throws InputError if `path` is not a folder.
 std::vector<Handed> submissions_in(const std::filesystem::path& folder, std::vector<std::string>* skipped = nullptr);
 
 /// The name of a submission's folder or archive without the archive's extension.
 std::string without_archive_ending(std::string name);
 
-/// The layout that makes a folder look like a class instead of one submission ("Moodle", "Canvas", "Gradescope", "Git",
-/// "folders"); empty if it does not.
+/// The layout ("Moodle", "Canvas", "Gradescope", "Git", "folders") of a folder that contains a class; empty if the
+/// folder looks like a single submission.
 std::string class_layout(const std::filesystem::path& folder, const std::vector<std::string>& wanted);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Reads files of mistakes, and runs each mistake on the calls of a student's tests.
+// Reads files of mistakes, and runs each mistake on the cases of a student's tests.
 #include "tests/coursework/grader/mistakes.h"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ bool nothing(const std::string& line) { return line.find_first_not_of(" \t") == 
 std::vector<Mistake> read_mistakes(const fs::path& file) {
   Lines lines(file);
   std::vector<Mistake> mistakes;
-  bool open = false;  // the last mistake still lacks its text
+  bool open = false;  // the text of the last mistake has not been read yet
   for (std::string line, value; lines.next(line);) {
     if (nothing(line)) continue;
     if (heading(line)) {
@@ -152,8 +152,8 @@ bool answers_alike(const TestRun& one, const std::filesystem::path& program, con
   return true;
 }
 
-/// Compares shares of equal totals by their counts; shares of different totals, as for cloths of different sizes, are
-/// equal if both are neither none nor all.
+/// Compares shares with equal totals by their counts. Shares with different totals, as for cloths of different sizes,
+/// are equal if both are strictly between 0 and 1.
 bool same_number(const Answer& a, const Answer& b, std::size_t i, double tolerance) {
   const double of = i < a.of.size() ? a.of[i] : 0, other = i < b.of.size() ? b.of[i] : 0;
   const double apart = std::abs(a.got[i] - b.got[i]);
@@ -190,7 +190,7 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
 std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
                                        const Builder& builder, const Sandbox& trusted, unsigned jobs) {
-  // failed tests distinguish mistakes best, so they run first
+  // failed tests run first, because they distinguish mistakes best
   std::vector<const TestRun*> order;
   for (const TestRun& one : runs) order.push_back(&one);
   std::stable_partition(order.begin(), order.end(), [](const TestRun* one) { return !all_right(*one); });

@@ -1,4 +1,4 @@
-// Files of known mistakes, and the mistakes that match a student's answers.
+// Files of known mistakes, and the mistakes that explain a student's answers.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,22 @@
 
 namespace coursework {
 
-// Files of mistakes, each a single replacement in a solution: mistakes.txt, novel.txt and double.txt of an assignment.
+// Files of mistakes: mistakes.txt, novel.txt and double.txt of an assignment. A mistake is one replacement in a
+// solution.
 
 /// Reads paragraphs `[name]`, `part: NAME`, `loses: IDS` (optional), then `<<<<`, the text, `====`, its replacement,
 /// `>>>>`. Throws InputError with file, line and the expected syntax.
 std::vector<Mistake> read_mistakes(const std::filesystem::path& file);
 
-/// Reads paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of simultaneous mistakes. Throws InputError likewise.
+/// Reads paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of simultaneous mistakes. Throws InputError as
+/// read_mistakes().
 std::vector<std::pair<std::string, std::string>> read_pairs(const std::filesystem::path& file);
 
-/// The source with the mistake applied. Throws InputError with the mistake's name unless its text occurs exactly once.
+/// The source with the mistake applied. Throws InputError with the mistake's name unless the text to replace occurs
+/// exactly once.
 std::string with_mistake(const std::string& source, const Mistake& mistake);
 
-// Comparison of a student's answers with those of known mistakes.
+// Comparison of a student's answers with the answers of known mistakes.
 
 /// One test of a part: its calls, and the student's answers after the test's reduction.
 struct TestRun {
@@ -32,22 +35,22 @@ struct TestRun {
   std::vector<Answer> answers;
 };
 
-/// The answer in the form that is compared with the expected one.
+/// The answer in the form that is compared with the expected answer.
 Answer reduced(const Test& test, const Case& what, Answer raw);
 
-/// True if two wrong answers agree. The tolerance scales with answers larger than the right ones, so that two
+/// True if two wrong answers agree. The tolerance grows with answers that exceed the right ones, so that two
 /// implementations of the same mistake agree on a motion that blows up.
 bool agree(const Case& what, const Answer& student, const Answer& mistake);
 
-/// The mistakes of `known` whose programs give all the student's answers: a single one is the cause, several are
-/// reported as alternatives; none if more than three match, which is not informative. `runs` are all the tests of one
+/// The mistakes of `known` whose programs give all of the student's answers. A single mistake is the cause; several are
+/// reported as alternatives. Empty if more than three match, which is not informative. `runs` are all tests of one
 /// part.
 std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
                                        const Builder& builder, const Sandbox& trusted, unsigned jobs);
 
-/// Text of these mistakes as the likely cause, or as alternatives; states that no known mistake matches if `names` is
-/// empty.
+/// Text that reports the mistakes `names` as the likely cause or as alternatives, or, if there are none, that no known
+/// mistake matches.
 std::string cause_text(const Texts& common, const Texts& own, const std::vector<std::string>& names);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Repeats calls with changed inputs.
+// Repeats calls with modified inputs.
 #include "tests/coursework/grader/observe.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace coursework {
 namespace {
 
-constexpr std::size_t most_alike = 3;       // alternatives that are reported together
-constexpr std::size_t most_numbers = 4000;  // in a case, which is run a hundred times
+constexpr std::size_t most_alike = 3;       // alternatives that may be reported together
+constexpr std::size_t most_numbers = 4000;  // numbers of a case, which is run a hundred times
 
 bool usable(const Case& what, const Answer& answer) {
   return answer.how == How::answered && answer.got.size() == what.expected.size() &&
@@ -34,7 +34,7 @@ Case with_numbers(const Case& what, Numbers in) {
   return other;
 }
 
-/// The case with another expected answer.
+/// The case with the answer `right` as the expected one.
 Case expecting(const Case& what, const Answer& right) {
   Case other = what;
   other.expected = right.got;
@@ -57,7 +57,7 @@ class Observer {
 
   std::string text() const {
     if (!subject_) return "";
-    // a tolerance above round-off would accept too many explanations
+    // a tolerance far above round-off would accept too many explanations
     double largest = 0;
     for (const double value : subject_->expected) largest = std::max(largest, std::abs(value));
     if (subject_->tolerance > 1e-4 * largest && largest > 0) return "";
@@ -88,8 +88,8 @@ class Observer {
     return true;
   }
 
-  /// True if a small increment of the changed number would be visible: beyond the reach of a limit, any large number
-  /// fits.
+  /// True if a small increase of the modified number changes the answer. Otherwise it is beyond some limit, and any
+  /// larger number would match too.
   bool is_sharp(const Change& change) const {
     if (change.kind < Change::one || change.kind > Change::over) return true;
     const std::optional<Numbers> in = changed(with_.own, *subject_, change);
@@ -107,7 +107,7 @@ class Observer {
   }
 
   std::string right_with() const {
-    // many causes make all calls return the same single number
+    // if all calls return the same single number, there are too many possible causes
     const auto same = [&](const auto& one) { return one.second.got.size() == 1 && one.second.got == got_->got; };
     if (asked_.size() > 1 && std::all_of(asked_.begin(), asked_.end(), same)) return "";
     const std::vector<Change> changes = changes_of(with_.own, *subject_);
@@ -140,7 +140,7 @@ class Observer {
                               theirs = asked_with(with_.student, changes, again);
     std::string text;
     std::size_t count = 0;
-    std::set<Numbers> told;  // one quantity may have several names
+    std::set<Numbers> told;  // a quantity may have several names
     for (std::size_t i = 0; i < made.size(); ++i) {
       if (right[i].how != How::answered || right[i].got.size() != subject_->expected.size()) continue;
       const Case less = expecting(*subject_, right[i]);
@@ -156,8 +156,8 @@ class Observer {
     return text;
   }
 
-  /// True if the change makes every wrong case with generic numbers right, and there is one. Special numbers (a radius
-  /// of 1, equal masses) make wrong formulas right by accident.
+  /// True if there are wrong cases with generic numbers, and the change makes all of them right. Special numbers (a
+  /// radius of 1, equal masses) can make wrong formulas right by accident.
   bool is_right_everywhere(const Change& change) const {
     constexpr std::size_t enough = 8;
     std::vector<Case> cases;
@@ -174,7 +174,7 @@ class Observer {
     return !cases.empty();
   }
 
-  /// True if most non-zero numbers of the case have more than three decimals, as random ones do.
+  /// True if most non-zero numbers of the case have more than three decimals, as random numbers do.
   bool is_general(const Case& what) const {
     std::size_t all = 0, long_ones = 0;
     for (const Param& p : params_of(CallLayout::of(with_.own, what)))
@@ -186,17 +186,17 @@ class Observer {
     return 2 * long_ones > all;
   }
 
-  /// The number of the case with this name; empty if there is none, or several.
+  /// The number of the case with this name; nullopt if there is no such number, or several.
   std::optional<double> number_of(const Case& what, const std::string& name) const {
     for (const Param& p : params_of(CallLayout::of(with_.own, what)))
       if (p.name == name && p.scalar()) return what.in[p.at[0]];
     return {};
   }
 
-  /// The number that separates right and wrong cases: its value is the same simple one, 0 or a count of 1, in all cases
-  /// of one group, and in none of the other.
+  /// Text on a number that separates right and wrong cases: it has the same simple value (0, or a count of 1) in all
+  /// cases of one group, and in no case of the other group.
   std::string parted() const {
-    constexpr std::size_t least = 2;  // cases in each group: a single case is not a rule
+    constexpr std::size_t least = 2;  // cases in each group, because a single case is not a rule
     std::string text;
     std::size_t count = 0;
     for (const Param& p : params_of(CallLayout::of(with_.own, *subject_))) {
@@ -221,14 +221,14 @@ class Observer {
     return text;
   }
 
-  /// True if a wrong number remains nonzero in the expected answer without the term.
+  /// True if the answer without the term has a nonzero entry at which the student's answer is wrong.
   bool says_something(const Numbers& without) const {
     for (std::size_t i = 0; i < without.size(); ++i)
       if (without[i] != 0 && !(std::abs(got_->got[i] - subject_->expected[i]) <= subject_->tolerance)) return true;
     return false;
   }
 
-  /// True if the answer is one of the call's own numbers, so that nothing is computed without this term.
+  /// True if the answer only repeats numbers of the call, so that nothing is computed without the term.
   bool hands_through(const Numbers& answer) const {
     for (const Param& param : params_of(CallLayout::of(with_.own, *subject_)))
       for (std::size_t from = 0; from + answer.size() <= param.at.size(); from += answer.size()) {
@@ -239,16 +239,17 @@ class Observer {
     return false;
   }
 
-  /// The contribution of a term as a case, from the answers with it and without it.
+  /// Returns the expected contribution of a term as a case, and the student's contribution as its answer. Both are
+  /// differences of the answers with and without the term.
   static std::pair<Case, Answer> added(const Case& what, const Answer& answer, const Numbers& right,
                                        const Numbers& theirs) {
     std::pair<Case, Answer> of{what, answer};
     for (std::size_t i = 0; i < answer.got.size(); ++i) of.first.expected[i] -= right[i], of.second.got[i] -= theirs[i];
-    of.first.tolerance *= 3;  // each is a difference of two numbers
+    of.first.tolerance *= 3;  // each number is a difference of two
     return of;
   }
 
-  /// The contribution of the change to other wrong cases, until a second one confirms it.
+  /// The contributions of the term to some of the other wrong cases, which can confirm the contribution to the first.
   Answered added_to_others(const Change& change) const {
     constexpr std::size_t enough = 4;
     std::vector<std::size_t> of;
@@ -307,7 +308,7 @@ std::vector<std::string> seen_at(const Observing& with, const Assignment& assign
     if (test.reduce) continue;
     const std::vector<Case> small = small_cases(assignment, test);
     const std::vector<Answer> to_small = small.empty() ? std::vector<Answer>() : with.student(small);
-    std::set<std::string> calls;  // calls that this test, or its small cases, fail
+    std::set<std::string> calls;  // calls that fail in this test or its small cases
     for (std::size_t k = 0; k < runs[i].cases.size(); ++k)
       if (!judge(runs[i].cases[k], runs[i].answers[k]).right) calls.insert(runs[i].cases[k].call);
     for (std::size_t k = 0; k < small.size(); ++k)
@@ -323,7 +324,7 @@ std::vector<std::string> seen_at(const Observing& with, const Assignment& assign
         if (small[k].call == call) asked.emplace_back(small[k], to_small[k]);
       const std::string text = Observer(with, asked).text();
       say(i, text);
-      if (!text.empty()) told.insert(function);  // other calls of the function would give the same result
+      if (!text.empty()) told.insert(function);  // other calls of the function would have the same result
     }
   }
   return seen;

@@ -1,5 +1,5 @@
-// Collects sources along their include lines, headers and scripts into a zip, and rehearses the package from the zip to
-// results.json.
+// Collects sources by following their include lines, packs them with headers and scripts into a zip, and rehearses the
+// package from the zip to results.json.
 #include "tests/coursework/grader/pack.h"
 
 #include <archive.h>
@@ -60,7 +60,7 @@ void write_zip(const fs::path& zip, const std::map<std::string, std::string>& fi
     check_archive(out.get(), archive_write_data(out.get(), content.data(), content.size()));
   }
   check_archive(out.get(), archive_write_close(out.get()));
-  // renamed when complete: a full disk or a kill leaves no partial zip
+  // renamed when complete, so that a full disk or a kill leaves no partial zip
   crosscheck::StreamingFile file(zip);
   file.append(packed);
   file.finish();
@@ -96,7 +96,7 @@ void unpack_zip(const fs::path& zip, const fs::path& folder) {
 
 namespace {
 
-/// The quoted includes of a file, relative to `root` or to the file's folder.
+/// The files that a file includes in quotes, relative to `root` or to the file's folder.
 std::vector<std::string> includes_of(const fs::path& root, const std::string& file) {
   std::vector<std::string> found;
   std::ifstream in(root / file);
@@ -116,8 +116,8 @@ bool has_main(const fs::path& file) {
   return false;
 }
 
-/// True if a source that includes `header` belongs to it. Programs with a main only use it, and so do the calls of
-/// public tests, which are compiled with submissions, because their "calls.h" exists only there.
+/// True if `source`, which includes `header`, implements it. Programs with a main only use the header. So do the calls
+/// of public tests, which are compiled with submissions: their "calls.h" does not exist elsewhere.
 bool belongs_to(const fs::path& root, const std::string& source, const std::string& header) {
   const auto its = includes_of(root, source);
   return !has_main(root / source) && std::find(its.begin(), its.end(), header) != its.end() &&
@@ -166,7 +166,7 @@ struct HeaderLibrary {
   const char *folder, *header, *package;
 };
 
-/// Throws crosscheck::InputError with the packages that are not installed.
+/// Adds the libraries' headers. Throws crosscheck::InputError with the packages that are not installed.
 void add_headers(Files& files) {
   constexpr HeaderLibrary libraries[] = {{"Eigen", "Core", "libeigen3-dev"},
                                          {"fmt", "core.h", "libfmt-dev"},
@@ -192,10 +192,10 @@ void add_headers(Files& files) {
 std::string identifier_of(std::string_view assignment) {
   std::string name(assignment);
   std::replace(name.begin(), name.end(), '-', '_');
-  return name;  // the name of its function begins with it
+  return name;  // the name of the assignment's function begins with this identifier
 }
 
-/// The table with one row: sources of other assignments are not packed.
+/// The table with the row of `only`, because sources of other assignments are not packed.
 std::string table_of_one(const std::string& table, const Assignment& only) {
   std::string out;
   size_t begin = 0;
@@ -264,7 +264,7 @@ std::string last_lines(const fs::path& log) {
   return text.size() > most ? "... " + text.substr(text.size() - most) : text;
 }
 
-/// Reports what is wrong with the results of our own solution; empty: nothing.
+/// Reports an error in the results of our own solution, or returns an empty string.
 std::string wrong_with(const fs::path& results) {
   if (!fs::exists(results)) return "there is no results/results.json";
   try {
@@ -289,7 +289,7 @@ bool not_ready(const std::string& why) {
   return false;
 }
 
-/// Runs the autograder on the submission in `root`; reports what is wrong, or "".
+/// Runs the autograder on the submission in `root`. Reports an error, or returns "".
 std::string rehearsed(const fs::path& root, const std::vector<std::string>& environment) {
   const Container container;
   const fs::path log = root / "log.txt";

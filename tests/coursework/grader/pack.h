@@ -1,4 +1,4 @@
-// A package for Gradescope: an assignment with its grader, as a zip.
+// A zip for Gradescope with an assignment and its grader.
 #pragma once
 
 #include <filesystem>
@@ -12,34 +12,34 @@ namespace coursework {
 
 // Zip files.
 
-/// Writes files by their path inside the archive; files that begin with "#!" are executable. Throws std::runtime_error
+/// Writes files by their path inside the archive. Files that begin with "#!" are executable. Throws std::runtime_error
 /// if the zip cannot be written.
 void write_zip(const std::filesystem::path& zip, const std::map<std::string, std::string>& files);
 
-/// Unpacks into the folder. Throws std::runtime_error if the zip cannot be read, contains a path outside the folder, or
-/// exceeds the limits of a submission.
+/// Unpacks the zip into the folder. Throws std::runtime_error if the zip cannot be read, contains a path outside the
+/// folder, or exceeds the limits of a submission.
 void unpack_zip(const std::filesystem::path& zip, const std::filesystem::path& folder);
 
 // The package for Gradescope; its grader is built on the target machine.
 
-/// Writes the zip: setup.sh (packages, then build.sh), run_autograder, the sources of the grader, of the part of mysim
-/// that it uses and of this assignment, the headers of header-only libraries, and `secret`, the line from which hidden
-/// tests are derived. Throws std::runtime_error if a source or a library is not found.
+/// Writes the zip: setup.sh (which installs packages and runs build.sh), run_autograder, the sources of the grader, of
+/// the part of mysim that it uses and of this assignment, the headers of header-only libraries, and `secret`, the line
+/// from which hidden tests are derived. Throws std::runtime_error if a source or a library is not found.
 void write_package(const Assignment& assignment, const std::string& secret, const std::filesystem::path& zip);
 
-/// A missing file of an unpacked package, or one that differs from the output of write_package(); empty: none. The
-/// secret is arbitrary.
+/// Returns a file of an unpacked package that is missing, superfluous, or different from what write_package() writes;
+/// empty if there is none. Any secret is accepted.
 std::string foreign_file(const Assignment& assignment, const std::filesystem::path& folder);
 
-/// Source files below `root` that the program made of `first` needs: their includes, and what belongs to these, namely
-/// the .cpp beside a header, and each .cpp without a header of its own that includes one of these headers from its own
-/// folder and is not a program. Paths are relative to `root`, sorted.
+/// Source files below `root` that a program with the sources `first` needs: included files, and the sources that
+/// implement them. These are the .cpp next to a header with the same name, and each .cpp without a header of its own
+/// that includes a header from its own folder and is not a program. Paths are relative to `root`, and sorted.
 std::vector<std::string> sources_needed(const std::filesystem::path& root, std::vector<std::string> first);
 
-/// Unpacks the zip into a fresh folder laid out as Gradescope's /autograder. Builds it there, with the caller's rights,
-/// only if it is a package of this version; then runs run_autograder on the solution under emulated container limits:
-/// 768 MB, half a CPU, 10 minutes, no new namespaces. Prints its progress; the last line is "ready", or "not ready"
-/// with the reason. Returns true if it is ready.
+/// Unpacks the zip into a fresh folder laid out as Gradescope's /autograder. If it is a package of this version, builds
+/// it there with the caller's rights, and runs run_autograder on the solution under emulated container limits: 768 MB,
+/// half a CPU, 10 minutes, no new namespaces. Prints its progress; the last line is "ready", or "not ready" with the
+/// reason. Returns true if the package is ready.
 bool rehearse(const Assignment& assignment, const std::filesystem::path& zip);
 
 }  // namespace coursework

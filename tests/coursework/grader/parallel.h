@@ -9,7 +9,7 @@
 
 namespace coursework {
 
-/// Calls work(0) ... work(count - 1), `jobs` at a time; the first exception is thrown again at the end.
+/// Calls work(0) ... work(count - 1), `jobs` at a time. Rethrows the first exception at the end.
 template <class Work>
 void parallel_for(std::size_t count, unsigned jobs, const Work& work) {
   std::atomic<std::size_t> next{0};

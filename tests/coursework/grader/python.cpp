@@ -1,4 +1,4 @@
-// Writes the student's modules and the loader, imports each part once, and joins two processes by pipes.
+// Writes the student's modules and the loader, imports each part once, and connects the two processes by pipes.
 #include "tests/coursework/grader/python.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::string interpreter() {
   return named && *named ? named : "/usr/bin/python3";
 }
 
-/// Closes the ends that a program was given: only then does the program at the other ends notice.
+/// Closes our copies of a program's pipe ends after its end. Only then does the program at the other ends notice.
 struct AtEnd {
   Descriptor &from, &to;
   ~AtEnd() { from.reset(), to.reset(); }
@@ -42,7 +42,7 @@ class PythonBuilder final : public Builder {
 
   std::map<std::string, Built> theirs(const Submission& submission, const fs::path& folder,
                                       unsigned jobs) const override {
-    // separate from the programs: the sandbox shows this folder
+    // the sandbox shows this folder, so it must not contain the programs
     const fs::path seen = folder / "python";
     for (const char* file : {"loader.py", "drawing_stubs.py"})
       crosscheck::write_file(seen / file, content_of_file(folder_of_coursework() / "python" / file));
@@ -62,7 +62,7 @@ class PythonBuilder final : public Builder {
   std::string handed_in(const std::string& part) const override { return part + ".py"; }
 
  private:
-  /// Path of a file among the student's modules. Parts have their own names, whatever the student's are.
+  /// Path of a file among the student's modules. A part has its official name, even if the student's file has another.
   static fs::path place(const Submission& submission, const std::string& name) {
     const auto found = submission.places.find(name);
     return found == submission.places.end() ? fs::path(name) : fs::path(found->second).parent_path() / name;
@@ -138,10 +138,10 @@ bool is_python_program(const fs::path& program) { return program.extension() == 
 
 End run_python(const Sandbox& sandbox, const fs::path& program, const Job& job) {
   std::vector<std::string> command = crosscheck::split(content_of_file(program), '\n');
-  command.pop_back();  // after the last line feed
+  command.pop_back();  // the empty string after the last line feed
   Job calls = job, asked{.limits = job.limits};
   calls.command = {command[0]}, calls.readable = {};
-  calls.limits.idle = calls.limits.wall;  // it waits for the interpreter
+  calls.limits.idle = calls.limits.wall;  // the program waits for the interpreter
   asked.readable = {command[1]}, asked.command.assign(command.begin() + 2, command.end());
   asked.limits.cpu += import_cpu;
   Pipe to, from;
@@ -158,7 +158,7 @@ End run_python(const Sandbox& sandbox, const fs::path& program, const Job& job) 
   }
   End other = answering.get();
   const double cpu = end.cpu + other.cpu;
-  if (end.how == End::How::cpu && end.cpu < calls.limits.cpu) {  // as it ends if the interpreter is gone
+  if (end.how == End::How::cpu && end.cpu < calls.limits.cpu) {  // its end if the interpreter is gone
     other.answers = std::move(end.answers);
     end = std::move(other);
     const std::size_t last = end.answers.rfind('\n', end.answers.size() - 2) + 1;

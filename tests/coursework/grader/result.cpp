@@ -1,4 +1,4 @@
-// Results as JSON, text and page; the page escapes all text from the student.
+// Writes results as JSON, text and page. The page escapes all text from the student.
 #include "tests/coursework/grader/result.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ using crosscheck::JsonField;
 
 namespace {
 
-// in alphabetical order, as in files of earlier gradings
+// keys in alphabetical order, as in files of earlier gradings
 Json json_of(const TestResult& t) {
   return {
       {"cause", t.cause}, {"concepts", t.concepts}, {"earned", t.earned}, {"heading", t.heading},  {"hidden", t.hidden},
@@ -117,7 +117,8 @@ const TestResult* public_twin(const Result& result, const TestResult& test) {
   return nullptr;
 }
 
-/// Public tests of the part with this cause; hidden ones must not reveal anything yet.
+/// Failed public tests of the part with this cause. Hidden tests are omitted, because they must not reveal anything
+/// yet.
 std::vector<std::string> with_cause(const Result& result, const std::string& part, const std::string& cause) {
   std::vector<std::string> ids;
   for (const TestResult& test : result.tests)
@@ -197,7 +198,7 @@ std::string text_of(const Result& result, const Texts& common) {
                      "\n";
   for (const std::string& line : result.preflight) text += "! " + printable(line) + "\n";
   for (const std::string& line : causes_of(result, common)) text += printable(line) + "\n";
-  std::string part, shown;  // last text on the part, which is not repeated for every test
+  std::string part, shown;  // the last text on the part, in order not to repeat it for every test
   bool hidden = false;
   for (const TestResult& test : result.tests) {
     if (test.part != part || test.hidden != hidden) {

@@ -15,15 +15,15 @@ struct TestResult {
   std::string id, part, title;
   std::string heading;  // above the tests of a part: the file's name, or the part's title
   bool hidden = false;
-  bool ungraded = false;  // a limit of ours prevented a verdict: no points, which differs from zero points
+  bool ungraded = false;  // a limit of ours prevented a verdict; unlike 0 points, "ungraded" is no grade
   double points = 0, earned = 0;
   std::vector<std::string> concepts;
   std::string said;   // feedback for the student: expected and actual numbers, the first row that differs
-  std::string cause;  // the likely cause, or that no known mistake matches; empty if right
-  std::string read;   // heading of the hand-out
-  std::string plot;   // SVG; empty: none
+  std::string cause;  // the likely cause, or that no known mistake matches; empty if the answers are right
+  std::string read;   // heading of the hand-out's section to read
+  std::string plot;   // SVG, or empty
   double seconds = 0;
-  std::string reason = {};  // the lecturer's reason for the points (rubric.h); not part of the JSON
+  std::string reason = {};  // the lecturer's reason for changed points (rubric.h); not part of the JSON
 };
 
 struct Result {
@@ -33,7 +33,7 @@ struct Result {
   std::vector<std::string> preflight;  // lines: missing files, and the compiler's first errors in readable form
   std::vector<TestResult> tests;
   std::string remark = {};      // the most helpful sentence of the feedback
-  std::string not_graded = {};  // reason, if nothing of it could be graded; otherwise empty
+  std::string not_graded = {};  // reason, if nothing of the submission could be graded; otherwise empty
   bool complete = false;        // false while tests are still to run
   double earned() const;
   double points() const;
@@ -46,14 +46,14 @@ bool passed(const TestResult& test);
 /// "passed", "failed" or "ungraded": a key of the common texts.
 std::string_view status_of(const TestResult& test);
 
-/// The result as JSON, and back: an interrupted class resumes from it. A fingerprint of the graded files and the grader
-/// is stored with it, if there is one. Throws InputError with the file.
+/// The result as JSON, and back; an interrupted class is resumed from it. The JSON contains the fingerprint of the
+/// graded files and the grader, if there is one. Reading throws InputError with the file.
 std::string to_json(const Result& result, const std::string& fingerprint = "");
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
 
 // Results for people: plain text for the terminal, and a page.
 
-/// Plain text; `common` is check/common.LANGUAGE.txt.
+/// The result as plain text; `common` are the texts in check/common.LANGUAGE.txt.
 std::string text_of(const Result& result, const Texts& common);
 
 /// One self-contained page with the text of text_of() and the plots. `own` has the names of the parts.
@@ -62,10 +62,10 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
 /// "Total: 85 of 100 points", and the number of remaining hidden tests if all public tests passed.
 std::string total_of(const Result& result, const Texts& common);
 
-/// Causes shared by several public tests of a part, each reported once: the lines_on() of these tests refer to it.
+/// Causes that several public tests of a part share, each reported once. lines_on() of these tests refers to them.
 std::vector<std::string> causes_of(const Result& result, const Texts& common);
 
-/// Feedback on a test that was not passed, line by line; empty if it was. `alone`: there is no summary to refer to.
+/// Feedback on a test, line by line; empty if the test was passed. `alone`: there is no summary to refer to.
 std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common,
                                   bool alone = false);
 

@@ -1,4 +1,4 @@
-// The lecturer's rubric: a TOML file that changes the points of tests, and sets those of single students.
+// The lecturer's rubric: a TOML file that changes the points of tests, and sets points of individual students.
 #pragma once
 
 #include <filesystem>
@@ -18,19 +18,20 @@ struct Rubric {
     double points = 0;
     std::string reason;
   };
-  std::map<std::string, double> points;  // by test, public and hidden together; others are unchanged
+  std::map<std::string, double> points;  // test -> points, public and hidden together; other tests are unchanged
   std::vector<Override> overrides;
 
-  /// Changes points, earned points and reasons. Returns the end of a sentence on overrides that could not be applied
-  /// because the submission was not graded; empty: none.
+  /// Changes points, earned points and reasons. Returns the end of a sentence about overrides that could not be applied
+  /// because the submission was not graded, or an empty string.
   std::string apply(Result& result) const;
 };
 
-/// Points of a test, public and hidden together, or of all tests if `test` is empty.
+/// Points of a test, public and hidden together, or sum of all tests if `test` is empty.
 double points_of(const Assignment& assignment, const Rubric& rubric, const std::string& test = "");
 
-/// Throws InputError with file, line and key, and the closest match for an unknown test or student. Students are
-/// addressed by submission, id or name; unless `whole_class`, students who are not among `handed` are skipped.
+/// Reads a rubric. Throws InputError with file, line and key, and with the closest match for an unknown test or
+/// student. Students are identified by submission, id or name. Unless `whole_class`, skips students who are not among
+/// `handed`.
 Rubric read_rubric(const std::filesystem::path& file, const Assignment& assignment, const std::vector<Handed>& handed,
                    bool whole_class);
 

@@ -58,12 +58,12 @@ Answer ending(const End& end, const Limits& limits) {
   return {How::no_token, {}, {}};
 }
 
-/// Length limit of tests/coursework/check/child_main.cpp; forged lines are cut here.
+/// Limit on the length of messages of tests/coursework/check/child_main.cpp; longer ones are forged, and cut.
 constexpr std::size_t longest_said = 200;
 constexpr std::size_t longest_name = 40;
 
-/// Parses "KEY n1 n2", or, with `names`, "NAME n1 NAME n2 ...": names of letters, digits, _ and ., small counts. Empty
-/// for anything else, since the text is untrusted.
+/// Parses counts: "KEY n1 n2", or, with `names`, "NAME n1 NAME n2 ...". Names consist of letters, digits, _ and .;
+/// counts are small. The text is untrusted: returns an empty list for anything else.
 std::vector<std::pair<std::string, long>> counts_in(const std::string& text, bool names) {
   std::vector<std::pair<std::string, long>> counts;
   std::istringstream words(text);
@@ -108,7 +108,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
       finished = true;
       continue;
     }
-    // messages before the end, valid only with the end that they explain
+    // messages before the end, which are valid only for a certain kind of end
     if (line.rfind("slow", 0) == 0 && rest.how == How::out_of_time) {
       rest.counts = counts_in(line.substr(4), true);
       begin = end.answers.size();
@@ -132,7 +132,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
     if (malformed) break;
     answers.push_back(std::move(answer));
   }
-  // a process ended by a limit or a signal may have been cut in the middle of a line
+  // if a limit or a signal ended the process, its last line may be incomplete
   const bool cut = rest.how != How::no_token;
   if (!cut && begin != end.answers.size()) malformed = true;
   if (malformed || answers.size() > count) return std::vector<Answer>(count, Answer{How::no_token, {}, {}});
@@ -140,7 +140,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
     if (!finished || end.code != 0) return std::vector<Answer>(count, Answer{How::no_token, {}, {}});
     return answers;
   }
-  // ended after its last answer: attributes the end to the last call
+  // if the process ended after its last answer, attributes the end to the last call
   if (answers.size() == count && count > 0) answers.pop_back();
   answers.resize(count, rest);
   return answers;

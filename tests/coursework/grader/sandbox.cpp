@@ -1,4 +1,4 @@
-// The table of sandboxes and the three of them: bubblewrap, another user, limits only.
+// The three sandboxes (bubblewrap, another user, limits only), and their table.
 #include "tests/coursework/grader/sandbox.h"
 
 #include <fcntl.h>
@@ -38,7 +38,8 @@ class BareSandbox final : public Sandbox {
     start.environment = {"PATH=/usr/bin:/bin", "LANG=C", "HOME=" + staging.own().string(),
                          "TMPDIR=" + staging.own().string()};
     start.folder = job.writable.empty() ? staging.own() : job.writable;
-    // The filter only restricts what the command may start: a limit on processes would count all processes of the user.
+    // The filter only restricts what the command may start. A limit on processes would include all processes of the
+    // user.
     start.filter = job.limits.processes > 0 ? std::string() : none_;
     start.input = job.input;
     start.limits = job.limits;
@@ -62,7 +63,7 @@ namespace {
 constexpr const char* bwrap = "/usr/bin/bwrap";
 constexpr const char* system_folders[] = {"/usr", "/bin", "/lib", "/lib64", "/etc/alternatives"};
 
-/// A file in memory, with a descriptor above those that the program gets.
+/// A file in memory, whose descriptor is above those that the program gets.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& content) {
@@ -87,8 +88,8 @@ class MemoryFile {
   int fd_;
 };
 
-/// True for Linux 5.14 and later, which count processes per namespace for the limit; earlier kernels count all of the
-/// user's.
+/// True for Linux 5.14 and later, which apply the limit on processes per namespace. Earlier kernels count all processes
+/// of the user.
 bool counts_by_namespace() {
   utsname system{};
   int major = 0, minor = 0;
@@ -104,13 +105,13 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
                                "ALL", "--hostname",    "sandbox",           "--clearenv"};
   const auto add = [&all](std::initializer_list<std::string> more) { all.insert(all.end(), more); };
   for (const char* folder : system_folders) add({"--ro-bind-try", folder, folder});
-  // if Crosscheck is installed, the system's folders contain its tests
+  // if Crosscheck is installed, hides its tests, which are in one of the system's folders
   if (const auto tests = folder_of_coursework(); tests.string().starts_with("/usr/"))
     add({"--tmpfs", tests.string(), "--remount-ro", tests.string()});
   // bwrap's own first process runs inside under the same user and without the filter: with access to /proc, a program
   // could write to its memory. Compilers see /proc, students' programs do not.
   if (job.limits.processes > 0) add({"--proc", "/proc"});
-  // Four times the limit on one file: room for several files, but bounded.
+  // Four times the limit on one file, which is enough for several files.
   add({"--dev", "/dev", "--size", std::to_string(4 * (job.limits.file << 20)), "--tmpfs", "/tmp"});
   for (const auto& folder : job.readable) add({"--ro-bind", staging.of(folder).string(), folder.string()});
   if (!job.writable.empty()) add({"--bind", staging.of(job.writable).string(), job.writable.string()});
@@ -120,7 +121,7 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
   add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
   const std::size_t first = 4 + job.passed.size();
   add({"--seccomp", std::to_string(first), "--json-status-fd", std::to_string(first + 1), "--"});
-  // within the namespace, which counts only its own processes; the first option is bash's, the second dash's
+  // set inside the namespace, which counts only its own processes; the first option is bash's, the second dash's
   if (job.limits.processes == 0 && geteuid() != 0 && counts_by_namespace())
     add({"/bin/sh", "-c", R"({ ulimit -u "$0" || ulimit -p "$0"; } 2>/dev/null; exec "$@")",
          std::to_string(job.limits.threads + 1)});
@@ -151,9 +152,9 @@ class BwrapSandbox final : public Sandbox {
     start.passed.insert(start.passed.end(), {filter.get(), status.get()});
     start.input = job.input;
     start.limits = job.limits;
-    // bwrap itself, its first process inside, and the program. Without a separate user, all processes of the calling
-    // user would count as well: then the limit on threads is set inside, and processes are bounded only by the
-    // wall-clock limit and the end of the namespace.
+    // The three further processes are bwrap, its first process inside, and the program. Without a separate user, all
+    // processes of the calling user would count too. Then the limit on threads is set inside, and the number of
+    // processes is bounded only by the wall-clock limit and the end of the namespace.
     start.processes = user ? tasks(job.limits) + 2 : -1;
     ProcessResult ended = spawn(start);
     const bool stopped = ended.wall || ended.idle || ended.output || ended.full;
@@ -194,7 +195,7 @@ class UidSandbox final : public Sandbox {
     start.folder = job.writable.empty() ? staging.own() : staging.of(job.writable);
     start.user = user.id();
     start.lock = user.lock();
-    // Nothing bounds the total size of its files: without a writable folder it must not create any.
+    // Nothing limits the total size of the program's files: without a writable folder it must not create any.
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;
     start.limits = job.limits;
@@ -217,7 +218,7 @@ struct Row {
   std::unique_ptr<Sandbox> (*make)();
 };
 
-// In the order in which they are tried. `bare` is never chosen by a probe.
+// In the order in which they are tried. `bare` is never chosen automatically.
 constexpr Row sandboxes[] = {{"bwrap", bwrap_sandbox}, {"uid", uid_sandbox}};
 
 constexpr std::string_view no_sandbox_means =
@@ -225,11 +226,11 @@ constexpr std::string_view no_sandbox_means =
     "results, and use the network; only time, memory, processes and output are limited. Use it only for code that you "
     "trust, or in a virtual machine that you delete afterwards.";
 
-/// On a machine under load even a shell takes seconds to start.
+/// Even a shell takes seconds to start on a machine under load.
 constexpr Limits probe_limits{.wall = 60};
 
-/// Runs a shell in the sandbox. Returns an empty text if it runs, sees no secret of ours and cannot start a process;
-/// otherwise the reason.
+/// Runs a shell in the sandbox. Returns an empty string if the shell runs, sees no secret of ours and cannot start a
+/// process; otherwise the reason.
 std::string lacks(const Sandbox& sandbox) {
   const PrivateFolder secret(0700);
   try {

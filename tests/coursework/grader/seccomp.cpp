@@ -25,7 +25,7 @@ constexpr const char* refused[] = {
     // namespaces and mounts
     "unshare", "setns", "mount", "umount2", "pivot_root", "chroot", "fsopen", "fsconfig", "fsmount", "fspick",
     "open_tree", "move_mount", "mount_setattr",
-    // keys and memory outlive a process
+    // keys and shared memory outlive a process
     "add_key", "request_key", "keyctl", "shmget", "shmat", "semget", "msgget", "mq_open", "memfd_create",
     "memfd_secret",
     // kernel interfaces; io_uring would bypass the filter
@@ -35,8 +35,8 @@ constexpr const char* refused[] = {
 constexpr const char* starting[] = {"fork", "vfork"};
 constexpr const char* creating[] = {"creat",     "mkdir", "mkdirat", "mknod",  "mknodat",  "symlink",
                                     "symlinkat", "link",  "linkat",  "rename", "renameat", "renameat2"};
-// Waiting uses no CPU time, on which a student's program is limited: these calls return at once, as if the time had
-// passed.
+// These calls return immediately, as if the time had passed: waiting uses no CPU time, so the limit on CPU time would
+// not stop a student's program.
 constexpr const char* waiting[] = {"nanosleep", "clock_nanosleep", "poll", "ppoll", "select", "pselect6"};
 constexpr unsigned long spaces[] = {CLONE_NEWUSER, CLONE_NEWNS,  CLONE_NEWPID,    CLONE_NEWNET,
                                     CLONE_NEWIPC,  CLONE_NEWUTS, CLONE_NEWCGROUP, 0x80 /* CLONE_NEWTIME */};
@@ -49,7 +49,7 @@ void check(int result) {
   if (result < 0) throw std::runtime_error(fmt::format("libseccomp: {}", std::strerror(-result)));
 }
 
-/// Names unknown to this libseccomp or machine cannot be called by name either, and are skipped.
+/// Names that this libseccomp or this machine does not know are skipped, because they cannot be called by name either.
 void refuse(void* filter, const char* name, int error) {
   const int number = seccomp_syscall_resolve_name(name);
   if (number >= 0) check(seccomp_rule_add(filter, SCMP_ACT_ERRNO(error), number, 0));

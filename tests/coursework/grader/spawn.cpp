@@ -1,4 +1,4 @@
-// The supervisor, the pipes around it, and the interpretation of a process's end.
+// Starts a supervisor for a program, communicates through pipes, and interprets how the program ended.
 #include "tests/coursework/grader/spawn.h"
 
 #include <fcntl.h>
@@ -63,7 +63,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
   set_limit(RLIMIT_STACK, 8 << 20, 8 << 20);
   set_limit(RLIMIT_FSIZE, setup.file, setup.file);
   set_limit(RLIMIT_NPROC, setup.processes, setup.processes);
-  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU, and a second later SIGKILL for programs that ignore it
+  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU; one second later SIGKILL, if it was ignored
   set_limit(RLIMIT_AS, setup.memory, setup.memory);
   if (setup.user && !become(setup.user)) fail(setup, "change to another user");
   if (chdir(setup.folder) != 0) fail(setup, "enter the folder it starts in");
@@ -78,8 +78,8 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
     if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, setup.filter) != 0)
       fail(setup, "install the filter of system calls");
   }
-  // A thread of ours that forked while another wrote this program holds it open until it has closed the inherited
-  // descriptors; the program cannot be started before.
+  // If another of our threads forked while this program was being written, its child keeps the program open for writing
+  // until it has closed the inherited descriptors. The program cannot be started before.
   const timespec moment{0, 1000000};
   for (int waited = 0; waited < 2000; ++waited) {
     execve(setup.command[0], setup.command, setup.environment);
@@ -89,7 +89,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
   fail(setup, "start the program");
 }
 
-/// Kills the current children of this process, to which the program's orphans are reparented.
+/// Kills the current children of this process, among them the program's orphans, which it has adopted.
 void kill_children() {
   char text[4096];
   const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
@@ -99,12 +99,12 @@ void kill_children() {
   text[size] = '\0';
   char* at = text;
   while (const pid_t child = static_cast<pid_t>(std::strtol(at, &at, 10))) {
-    if (*at == '\0') break;  // each number ends with a blank: this one was cut off
+    if (*at == '\0') break;  // each number ends with a blank, so this number is incomplete
     kill(child, SIGKILL);
   }
 }
 
-/// Adds resource usage, because a program may leave its zombies to us.
+/// Adds resource usage. Needed because a program may leave zombies, which this process waits for.
 void add_usage(rusage& sum, const rusage& more) {
   timeradd(&sum.ru_utime, &more.ru_utime, &sum.ru_utime);
   timeradd(&sum.ru_stime, &more.ru_stime, &sum.ru_stime);
@@ -134,12 +134,12 @@ void kill_descendants(const ChildSetup& setup, rusage& used) {
 }  // namespace
 
 void supervise(const ChildSetup& setup) {
-  // The descriptors were created above their target numbers, so that none is overwritten before its turn.
+  // The descriptors are above their target numbers, so none of them is overwritten before it is copied.
   for (int i = 0; i < setup.count; ++i) dup2(setup.descriptors[i], i);
   ChildSetup own = setup;
   own.report = dup2(setup.report, setup.count);
   fcntl(own.report, F_SETFD, FD_CLOEXEC);
-  // If the grader is killed, nobody may use this user before all its processes have been killed here.
+  // If the grader is killed, the user must stay reserved until this process has killed all of the user's processes.
   own.lock = dup2(setup.lock, own.report + 1);
   if (own.lock >= 0) fcntl(own.lock, F_SETFD, FD_CLOEXEC);
   close_from(std::max(own.report, own.lock) + 1);
@@ -191,7 +191,7 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
   if (shell && code > 128 && code < 128 + NSIG) signal = code - 128;
   end.code = signal ? signal : code;
   const double cpu = crosscheck::cpu_seconds(ended.used);
-  // ru_maxrss is in kB; the limit is on mapped memory, which exceeds resident memory, hence three quarters.
+  // ru_maxrss is in kB. The limit is on mapped memory, which exceeds resident memory: hence three quarters.
   const bool full = static_cast<double>(ended.used.ru_maxrss) > 0.75 * 1024 * static_cast<double>(limits.memory);
   end.cpu = cpu;
   if (ended.wall)
@@ -229,7 +229,7 @@ Pipe::Pipe() {
 namespace {
 
 constexpr std::size_t most_captured = 64 << 10;
-/// Blocks signals that would disturb this thread during communication; restores them at the end.
+/// Blocks signals that would disturb this thread during communication. The destructor restores the signal mask.
 class BlockedSignals {
  public:
   BlockedSignals() {
@@ -240,7 +240,7 @@ class BlockedSignals {
     sigset_t pipe{};
     sigaddset(&pipe, SIGPIPE);
     const timespec at_once{};
-    if (!sigismember(&before_, SIGPIPE)) sigtimedwait(&pipe, nullptr, &at_once);  // raised by one of our own writes
+    if (!sigismember(&before_, SIGPIPE)) sigtimedwait(&pipe, nullptr, &at_once);  // one of our own writes has raised it
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
 
@@ -260,13 +260,13 @@ bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& se
   return got != 0;
 }
 
-/// Measures for how long no process of a program has run. Waiting for a processor counts as running, so load makes
-/// nothing idle.
+/// Measures for how long no process of a program has run. Waiting for a processor counts as running, so that a program
+/// is not regarded as idle on a machine under load.
 class IdleWatch {
  public:
   explicit IdleWatch(pid_t supervisor) : supervisor_(supervisor) {}
 
-  /// Checks once per second.
+  /// Seconds without activity, updated once per second.
   double seconds() {
     const auto now = Clock::now();
     if (now - looked_ >= std::chrono::seconds(1)) {
@@ -279,7 +279,7 @@ class IdleWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// True if any thread below this process is not in interruptible sleep, or if this cannot be determined.
+  /// True if any thread of this process's descendants is not in interruptible sleep, or if this cannot be determined.
   static bool anything_runs(pid_t parent) {
     const std::string children =
         crosscheck::try_read_file(fmt::format("/proc/{0}/task/{0}/children", parent)).value_or("");
@@ -302,7 +302,7 @@ class IdleWatch {
   Clock::time_point looked_ = Clock::now(), ran_ = looked_;
 };
 
-/// Feeds the input, reads the outputs and watches the clock until the supervisor reports.
+/// Writes the input, reads the outputs and watches the clock until the supervisor reports.
 ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, Pipe& answers, Pipe& captured_output,
                         Pipe& reports, ProcessResult& ended) {
   for (Pipe* pipe : {&answers, &captured_output, &reports}) {

@@ -1,4 +1,4 @@
-// Runs one program under limits, with a supervisor between it and the grader, and reports how it ended.
+// Runs a program under limits and under a supervisor process, and reports how it ended.
 #pragma once
 
 #include <linux/filter.h>
@@ -13,34 +13,34 @@
 
 namespace coursework {
 
-// The process between the grader and the program: starts the program, waits for it, and cleans up after it.
+// The supervisor is a process between the grader and the program. It starts the program, waits for it, and cleans up.
 
 /// Data for the child, prepared before fork(): the grader has threads, so the child must not allocate.
 struct ChildSetup {
   char* const* command;
   char* const* environment;
   const char* folder;        // working directory
-  unsigned user;             // user and group of the program; 0: ours
-  const sock_fprog* filter;  // null: none
-  const int* descriptors;    // become 0, 1, 2, ...; all others are closed
+  unsigned user;             // user and group of the program; 0 for ours
+  const sock_fprog* filter;  // null for no filter
+  const int* descriptors;    // become 0, 1, 2, ... in the program; all others are closed
   int count;
   int report;  // descriptor to which a ChildStatus is written
-  int lock;    // descriptor that the supervisor holds open until it ends; -1: none
+  int lock;    // descriptor that the supervisor keeps open until it ends, or -1
   rlim_t cpu, memory, file, processes;
 };
 
 struct ChildStatus {
-  const char* failed = nullptr;  // operation that failed (a literal of ours), with errno in `error`; null: it ran
+  const char* failed = nullptr;  // operation that failed (a literal), with errno in `error`; null if the program ran
   int error = 0;
   int status = 0;  // as returned by wait()
   rusage used{};
 };
 
-/// Runs in a separate process, with SIGTERM and SIGCHLD blocked; SIGTERM stops the program. After the program's end,
-/// kills its descendants and all processes of `user`.
+/// The supervisor's main function, called in a separate process with SIGTERM and SIGCHLD blocked. SIGTERM stops the
+/// program. After the program's end, kills its descendants and all processes of `user`.
 [[noreturn]] void supervise(const ChildSetup& setup);
 
-// Runs a program under limits; the sandboxes differ in its options.
+// Runs a program under limits. The sandboxes differ in their options.
 
 class Descriptor {
  public:
@@ -58,7 +58,7 @@ class Descriptor {
   int fd_;
 };
 
-/// Both descriptors are above those that programs get. Throws std::runtime_error if there are too many.
+/// A pipe whose descriptors are above those that programs get. Throws std::runtime_error if no descriptors are left.
 struct Pipe {
   Descriptor from, to;
   Pipe();
@@ -67,27 +67,27 @@ struct Pipe {
 struct SpawnOptions {
   std::vector<std::string> command, environment;  // environment as NAME=value
   std::filesystem::path folder;                   // working directory
-  unsigned user = 0;                              // user and group of the program; 0: ours
-  int lock = -1;                                  // reserves the user until the supervisor has cleaned up; -1: none
-  std::string filter = {};                        // see filter_program(); empty: none
-  std::vector<int> passed = {};                   // descriptors that it receives as 4, 5, ...
+  unsigned user = 0;                              // user and group of the program; 0 for ours
+  int lock = -1;                                  // reserves the user until the supervisor has cleaned up, or -1
+  std::string filter = {};                        // see filter_program(); empty for no filter
+  std::vector<int> passed = {};                   // descriptors that the program receives as 4, 5, ...
   std::string input = {};
   Limits limits = {};
-  long processes = 0;  // limit on concurrent processes of its user, including itself
+  long processes = 0;  // limit on concurrent processes of the program's user, including the program
 };
 
 struct ProcessResult {
   int status = 0;                                                 // as returned by wait()
-  rusage used{};                                                  // for all its processes
-  bool wall = false, idle = false, output = false, full = false;  // stopped by us; full: too many answers
+  rusage used{};                                                  // sum over all processes
+  bool wall = false, idle = false, output = false, full = false;  // stopped by us; `full`: too many answers
   std::string answers, captured_output;
 };
 
 /// Throws std::runtime_error if the program cannot be started.
 ProcessResult spawn(const SpawnOptions& start);
 
-/// Decides the outcome in the order given in sandbox.h. `shell`: exit codes from 129 on are signals, as bwrap and
-/// shells report them.
+/// Determines the outcome in the order given in sandbox.h. `shell`: exit codes from 129 on are signals, as reported by
+/// bwrap and shells.
 End classify(ProcessResult ended, const Limits& limits, bool shell);
 
 }  // namespace coursework

@@ -22,7 +22,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-// Between the ranges that distributions and systemd assign.
+// These ids are between the ranges that distributions and systemd assign.
 constexpr unsigned first_user = 61000, users = 128;
 constexpr const char* open_to_all[] = {"/tmp", "/var/tmp", "/dev/shm", "/run/lock", "/dev/mqueue"};
 
@@ -41,7 +41,7 @@ bool has_name(unsigned user) {
   return getpwuid_r(user, &entry, text, sizeof text, &found) == 0 && found;
 }
 
-/// Requires that no program of the user runs any more, so that nothing changes concurrently.
+/// Precondition: no program of the user runs any more, so nothing changes concurrently.
 void remove_files_of(unsigned user, const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder)) {
     struct stat about {};
@@ -79,7 +79,7 @@ PrivateFolder::PrivateFolder(unsigned mode, unsigned owner) {
 }
 
 SandboxUser::SandboxUser() {
-  // The name of an abstract socket is the lock: it is released with its process, however that ends.
+  // An abstract socket serves as the lock: the kernel releases its name when the process ends, for whatever reason.
   for (int attempt = 0; attempt < 600; ++attempt) {
     for (unsigned id = first_user; id < first_user + users; ++id) {
       if (has_name(id)) continue;
@@ -116,7 +116,7 @@ ScopedOwner::~ScopedOwner() {
 
 namespace {
 
-/// Copies plain files and folders, readable for everyone with access to the folder.
+/// Copies plain files and folders. The copies are readable for everyone with access to the folder.
 void copy_for_others(const fs::path& from, const fs::path& to) {
   fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::skip_symlinks);
   fs::permissions(to, fs::perms(0755));
@@ -133,7 +133,7 @@ void move_entries(const fs::path& from, const fs::path& to) {
   for (const fs::path& entry : entries) {
     std::error_code elsewhere;
     fs::rename(entry, to / entry.filename(), elsewhere);
-    if (elsewhere)  // on another file system
+    if (elsewhere)  // the two paths are on different file systems
       fs::copy(entry, to / entry.filename(), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
 }
@@ -144,7 +144,7 @@ StagingFolder::StagingFolder(const Job& job, unsigned user) : job_(job), own_(07
   for (std::size_t i = 0; i < job.readable.size(); ++i) {
     places_.emplace_back(job.readable[i], job.readable[i]);
     if (!user) continue;
-    // keeps the last path component, which compiler messages contain
+    // preserves the last component of the path, which compiler messages contain
     const fs::path above = own() / std::to_string(i);
     fs::create_directory(above);
     fs::permissions(above, fs::perms(0755));

@@ -1,4 +1,4 @@
-// Temporary folders and users of a sandboxed run: its private folder, copies of its inputs, and the return of its
+// Temporary folders and users of a sandboxed run: a private folder, copies of its inputs, and the return of its
 // outputs.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace coursework {
 
-/// A fresh folder below the system's temporary one; removed with its content by the destructor.
+/// A new folder below the system's temporary folder. The destructor removes it with its content.
 class PrivateFolder {
  public:
   /// Throws std::runtime_error if the folder cannot be created.
@@ -24,7 +24,7 @@ class PrivateFolder {
   crosscheck::TemporaryFolder folder_{"lane"};
 };
 
-/// An exclusive user id, reserved across threads and processes for the lifetime of this object. It needs no entry in
+/// An exclusive user id, reserved across threads and processes during the lifetime of this object. It needs no entry in
 /// the user database. The destructor removes the user's files in world-writable folders.
 class SandboxUser {
  public:
@@ -34,7 +34,7 @@ class SandboxUser {
   SandboxUser(const SandboxUser&) = delete;
   SandboxUser& operator=(const SandboxUser&) = delete;
   unsigned id() const { return id_; }
-  /// Descriptor that reserves the id for as long as any process holds it open.
+  /// Descriptor that reserves the id while any process has it open.
   int lock() const { return held_; }
 
  private:
@@ -42,8 +42,9 @@ class SandboxUser {
   int held_ = -1;
 };
 
-/// Lends `folder` to a user. The destructor returns everything in it to us, removes entries that are not plain files or
-/// folders or have hard links elsewhere, and makes the rest readable for others. No effect for user 0 or an empty path.
+/// Gives `folder` to a user for a time. The destructor returns everything in it to us, removes entries that are not
+/// plain files or folders or have hard links elsewhere, and makes the rest readable for others. No effect if the user
+/// is 0 or the path is empty.
 class ScopedOwner {
  public:
   ScopedOwner(std::filesystem::path folder, unsigned user);
@@ -56,24 +57,23 @@ class ScopedOwner {
   unsigned user_;
 };
 
-// Copies of a job's inputs and outputs that only its user can access: the grader's own folders stay closed to
-// everybody.
+// Copies of a job's inputs and outputs that only its user can access. The grader's own folders remain inaccessible.
 
 class StagingFolder {
  public:
-  /// For a job under `user`; 0: under ours, without copies.
+  /// Prepares a job for `user`, or for our own user and without copies if `user` is 0.
   StagingFolder(const Job& job, unsigned user);
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
 
-  /// An empty private folder of the user, except for the copies.
+  /// Private folder of the sandbox user; it contains only the copies.
   const std::filesystem::path& own() const { return own_.path(); }
   /// Actual path of one of the job's folders.
   const std::filesystem::path& of(const std::filesystem::path& folder) const;
   /// The job's command with the actual paths.
   std::vector<std::string> command() const;
 
-  /// After the run: takes ownership of the writable folder's content and moves it to the path that the job names.
+  /// To be called after the run: takes ownership of the writable folder's content and moves it to the path in the job.
   void give_back();
 
  private:

@@ -1,4 +1,4 @@
-// Reads folders through the file system and archives through libarchive, and matches the wanted files.
+// Reads folders through the file system and archives through libarchive, and finds the wanted files.
 #include "tests/coursework/grader/submission.h"
 
 #include <archive.h>
@@ -113,7 +113,7 @@ std::string with_includes(const std::string& text,
 
 namespace {
 
-/// The source in UTF-8, with '/' in the names of included files, in which Visual Studio accepts backslashes.
+/// The source in UTF-8, with '/' instead of backslashes (which Visual Studio accepts) in the names of included files.
 std::string plain_source(std::string text) {
   text = plain_utf8(std::move(text));
   if (text.find('\\') == std::string::npos) return text;
@@ -159,7 +159,7 @@ std::map<std::string, std::string> own_includes(const std::map<std::string, std:
         add(files.count(beside) ? beside : here, files.count(beside) ? beside : here);
         continue;
       }
-      // in another folder, or with another case: only if the match is unique
+      // a file in another folder, or with a name that differs in case, is included only if it is the only match
       const std::string end =
           "/" + lower(here.substr(here.rfind("../") == std::string::npos ? 0 : here.rfind("../") + 3));
       std::vector<std::string> alike;
@@ -224,7 +224,7 @@ void FileMatcher::into(Submission& submission) const {
       submission.missing[name] = {"file.missing", {name}};
       continue;
     }
-    // non-backups first, the shallowest first, and the exact name before one that differs in case
+    // prefers non-backups, then the file in the fewest folders, then the exact name to one that differs in case
     auto rank = [&](const Found& f) {
       return 8 * is_backup(f.path) + 2 * depth_of(f.path) +
              (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
@@ -245,7 +245,7 @@ void FileMatcher::into(Submission& submission) const {
       const std::string folder = best.path.substr(0, best.path.rfind('/') + 1);
       for (const auto& [path, content] : beside)
         if (wants_python() && path.starts_with(folder) && !is_backup(path)) submission.files[path] = content;
-      // the hand-out builds every source in its folder
+      // other sources in the same folder belong to the program, as the hand-out builds every source in its folder
       for (const auto& [path, content] : beside)
         if (is_source(path) && !is_backup(path) && fs::path(path).parent_path() == fs::path(best.path).parent_path())
           submission.files[path] = content, add_included(path, content);
@@ -258,8 +258,8 @@ void FileMatcher::into(Submission& submission) const {
   }
 }
 
-// Folders are read through the file system, archives through libarchive: a parser of untrusted zip and tar files that
-// has been hardened for years.
+// Folders are read through the file system. Archives are read with libarchive, a parser of untrusted zip and tar files
+// that has been hardened for years.
 
 namespace {
 
@@ -270,8 +270,8 @@ struct Refused {
 Remark too_many() { return {"archive.entries", {std::to_string(most_entries)}}; }
 Remark too_much() { return {"archive.size", {std::to_string(largest_total >> 20)}}; }
 
-/// Empty if it is not a regular file any more, or larger than a graded file may be. Never follows links or waits for
-/// pipes.
+/// nullopt if it is not (or no longer) a regular file, or is larger than a graded file may be. Never follows links or
+/// waits for pipes.
 std::optional<std::string> content_of(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return {};
@@ -289,7 +289,8 @@ std::optional<std::string> content_of(const fs::path& file) {
   return content;
 }
 
-/// Archives in the top folder or one below, which may contain the files.
+/// Reads the files of a folder. Returns the archives in the top folder and one below, which may contain the wanted
+/// files.
 std::vector<fs::path> read_folder(const fs::path& top, FileMatcher& matcher) {
   std::size_t entries = 0;
   std::vector<fs::path> archives;
@@ -297,7 +298,7 @@ std::vector<fs::path> read_folder(const fs::path& top, FileMatcher& matcher) {
   for (auto at = fs::recursive_directory_iterator(top, options); at != fs::recursive_directory_iterator(); ++at) {
     if (++entries > most_entries) throw Refused{too_many()};
     const fs::file_type type = at->symlink_status().type();
-    // .git holds thousands of files
+    // skips hidden folders: .git contains thousands of files
     if (at.depth() >= matcher.deepest() || at->path().filename().string()[0] == '.') at.disable_recursion_pending();
     if (type == fs::file_type::regular && at.depth() <= 1 && is_archive(at->path())) archives.push_back(at->path());
     const std::string path = at->path().lexically_relative(top).generic_string();
@@ -325,12 +326,12 @@ struct Free {
   void operator()(archive* a) const { archive_read_free(a); }
 };
 
-/// Number of entries and bytes unpacked so far, from an archive and the archives inside it.
+/// Numbers of entries and of bytes unpacked so far, from an archive and the archives inside it.
 struct Unpacked {
   std::size_t entries = 0, total = 0;
 };
 
-/// Unpacks the entry to its end, independent of the size in its header; keeps slightly more than `most` bytes.
+/// Unpacks the entry to its end, whatever size its header states; keeps slightly more than `most` bytes.
 std::string unpack(archive* from, std::size_t& total, std::size_t most) {
   std::string content;
   std::string block(1u << 16, '\0');
@@ -343,8 +344,8 @@ std::string unpack(archive* from, std::size_t& total, std::size_t most) {
   return content;
 }
 
-/// Verifies a gzip file by decompressing it with zlib to its end: libarchive ignores gzip's checksum (consume_trailer()
-/// in its archive_read_support_filter_gzip.c skips it), and tar has no checksum of file contents.
+/// Verifies a gzip file by decompressing all of it with zlib, because libarchive ignores gzip's checksum
+/// (consume_trailer() in its archive_read_support_filter_gzip.c skips it), and tar has no checksum of file contents.
 void require_whole_gzip(const fs::path& file) {
   constexpr int window_of_gzip = 15 + 16;                                  // the largest window, with gzip's header
   constexpr std::size_t most = largest_total + most_entries * (4u << 10);  // including tar's headers and padding
@@ -372,13 +373,14 @@ void require_whole_gzip(const fs::path& file) {
       total += block.size() - stream.avail_out;
       if (total > most) throw Refused{too_much()};
     }
-    // tapes and some transfers pad with zeros
+    // tapes and some transfers append zeros
     while ((more = refill()) && *stream.next_in == 0) ++stream.next_in, --stream.avail_in;
     inflateReset(&stream);
   }
 }
 
-/// Path of an entry, with '/' and in UTF-8. Chinese systems write GBK, whose bytes include backslashes.
+/// Path of an entry, with '/' and in UTF-8. Chinese systems write GBK, in which characters may contain the byte of a
+/// backslash.
 std::string path_of(archive_entry* entry) {
   const char* name = archive_entry_pathname_utf8(entry);
   if (!name) name = archive_entry_pathname(entry);
@@ -390,7 +392,7 @@ std::string path_of(archive_entry* entry) {
 
 void read_archive(const fs::path& file, FileMatcher& matcher, Unpacked& sum, int depth = 1) {
   const std::unique_ptr<archive, Free> from(archive_read_new());
-  // common formats only, and no filter that starts an external program
+  // only common formats, and no filter that starts an external program
   for (const auto support :
        {archive_read_support_format_zip, archive_read_support_format_tar, archive_read_support_format_7zip,
         archive_read_support_format_rar, archive_read_support_format_rar5, archive_read_support_filter_gzip,
@@ -442,7 +444,7 @@ namespace {
 
 void read_one(const fs::path& path, const std::string& name, FileMatcher& matcher) {
   Unpacked sum;
-  // in a folder shared by students, a link could submit another student's work
+  // a link in a folder shared by students could submit another student's work
   if (fs::is_symlink(path)) throw Refused{{"submission.link", {}}};
   if (fs::is_directory(path)) {
     const std::vector<fs::path> archives = read_folder(path, matcher);
@@ -474,7 +476,7 @@ Submission read_submission(const Handed& handed, const std::vector<std::string>&
   FileMatcher matcher(wanted, roles);
   try {
     for (const auto& [path, name] : handed.files) {
-      // pictures and pages are ignored if they come with an archive or several wanted files
+      // other files, such as pictures and pages, are ignored if there are several
       if (handed.files.size() > 1 && !fs::is_directory(path) && !is_archive(name) && !matcher.wants(name)) continue;
       read_one(path, name, matcher);
     }

@@ -1,4 +1,4 @@
-// Experiments on a student's code. They are skipped if all tests passed; those that compile inspect the source first.
+// Experiments on a student's code, skipped if all tests passed. Before any compilation, the source is inspected.
 #include "tests/coursework/grader/suspects.h"
 
 #include <fmt/format.h>
@@ -19,8 +19,9 @@ namespace {
 
 bool right_in(const TestRun& one, std::size_t i) { return judge(one.cases[i], one.answers[i]).right; }
 
-/// True if the errors are those of a value stored once in single precision: a few roundings of 6e-8 of the largest
-/// number. The result must itself be in single precision, which distinguishes this from a constant of six digits.
+/// True if all errors are as large as if a value had been stored in single precision: a few times 6e-8 of the largest
+/// number. The wrong numbers themselves must be single-precision numbers, unlike errors due to a constant with six
+/// digits.
 bool single_beside(const Case& what, const Answer& answer) {
   if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
   double size = 0;
@@ -33,8 +34,8 @@ bool single_beside(const Case& what, const Answer& answer) {
   return true;
 }
 
-/// True if something is wrong, and all wrong numbers are single-precision versions of the right ones. Features
-/// extracted from answers do not count, because they are not the student's own numbers.
+/// True if there are wrong cases, and all of their wrong numbers are single-precision versions of the right ones.
+/// Features extracted from answers do not count, because they are not the student's own numbers.
 bool all_single(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
@@ -46,7 +47,7 @@ bool all_single(const std::vector<TestRun>& of_part) {
   return any;
 }
 
-/// True if something is wrong, and the first wrong number of each case is the right one without its fraction.
+/// True if there are wrong cases, and the first wrong number of each is the right one without its fraction.
 bool all_whole(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
@@ -59,7 +60,7 @@ bool all_whole(const std::vector<TestRun>& of_part) {
   return any;
 }
 
-/// True if a call that was wrong after others is right as the first call of its program.
+/// True if a call that was wrong after other calls is right as the first call of its program.
 bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part) {
   for (const TestRun& one : of_part)
     for (std::size_t i = 1; i < one.cases.size(); ++i) {
@@ -70,7 +71,7 @@ bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part
   return false;
 }
 
-/// True if everything that was wrong is right in another program, or with other inputs and the same expected answers.
+/// True if all wrong cases are right in the program `program`, or with changed inputs and the same expected answers.
 template <class Changed>
 bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part, Changed changed) {
   for (const TestRun& one : of_part) {
@@ -95,7 +96,7 @@ bool mends(const Subject& subject, const fs::path& program, const std::vector<Te
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Trigonometric functions that multiply their angles by `factor`.
+/// Trigonometric functions whose angles are multiplied by `factor`.
 std::string trigonometry(double factor) {
   std::string source = "#define _GNU_SOURCE\nextern \"C\" {\n";
   for (const auto& [type, ending] : {std::pair{"double", ""}, std::pair{"float", "f"}}) {
@@ -132,8 +133,8 @@ bool takes_degrees(const Subject& subject, const std::vector<TestRun>& of_part, 
   return false;
 }
 
-/// The source with double in place of float, in declarations, functions and literals; empty if there is no float.
-/// Strings and comments are unchanged. `line` is the line of the first float.
+/// The source with double instead of float in declarations, functions and literals; empty if it contains no float.
+/// Strings and comments are unchanged. `line` receives the line of the first float.
 std::string in_double(const std::string& source, int& line) {
   static const std::regex single(R"(\bfloat\b|\b(sqrt|sin|cos|tan|fabs|pow|exp|hypot|fmax|fmin|floor|ceil)f\b|)"
                                  R"((\d\.\d*|\.\d+|\d[eE][+-]?\d+)[fF]\b)");
@@ -153,8 +154,8 @@ std::string in_double(const std::string& source, int& line) {
   return line == 0 ? "" : out + source.substr(done);
 }
 
-/// The line of the first float in a file for which all tests pass with double: an intermediate rounding to single
-/// precision is not visible in the digits of the answers.
+/// The line of the first float in the file if all tests pass with double instead, otherwise 0. The digits of the
+/// answers do not show rounding of intermediate results to single precision.
 int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
   const auto found = subject.submission.files.find(file);
   if (found == subject.submission.files.end()) return 0;
@@ -167,8 +168,7 @@ int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, 
   return !built.program.empty() && mends(subject, built.program, of_part) ? line : 0;
 }
 
-/// The line of the first integer division that matters, if keeping the fraction in some divisions makes all answers
-/// right.
+/// The line of the first relevant integer division if all answers are right with floating-point divisions, otherwise 0.
 int line_of_integer_division(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
   constexpr std::size_t most = 4;  // one compilation each
   const auto found = subject.submission.files.find(file);
@@ -189,7 +189,7 @@ int line_of_integer_division(const Subject& subject, const std::vector<TestRun>&
   const auto line = [&](std::size_t at) {
     return 1 + static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   };
-  // each alone first: if one of several is an index, changing all at once would not compile
+  // tries each division alone first: changing all of them would not compile if one is an index
   for (const std::size_t at : all)
     if (mended_by({at})) return line(at);
   return all.size() > 1 && mended_by(all) ? line(all.front()) : 0;
@@ -218,8 +218,8 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
 }
 
 bool can_be_searched(const std::string& source) {
-  // twenty times the size of our solutions, so that a search for each word takes seconds; a fifth of the stack's
-  // capacity
+  // twenty times the size of our solutions, so that a search for each word takes seconds; a fifth of the length at
+  // which the stack overflows
   constexpr std::size_t largest = 1u << 15, longest = 4000;
   if (source.size() > largest) return false;
   std::size_t blanks = 0, word = 0;
@@ -237,7 +237,7 @@ Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
   if (all_single(of_part)) return {python ? "suspect.float32" : "suspect.float", {}};
   if (python && all_whole(of_part)) return {"suspect.whole", {}};
   if (keeps_something(subject, of_part)) return {"suspect.state", {}};
-  for (const TestRun& one : of_part)  // a crash has its own message, and must not be repeated
+  for (const TestRun& one : of_part)  // skips crashes, which have their own message and must not be repeated
     for (const Answer& answer : one.answers)
       if (answer.how != How::answered) return {};
   const std::string file = subject.builder.handed_in(std::string(of_part.front().test->part));

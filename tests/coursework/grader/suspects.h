@@ -1,4 +1,4 @@
-// Causes found by experiment: after a change of the program or its inputs, everything that was wrong is right.
+// Causes found by experiment: all wrong answers become right after a change of the program or of its inputs.
 #pragma once
 
 #include <filesystem>
@@ -17,21 +17,21 @@ struct Subject {
   const Sandbox& sandbox;
   const Builder& builder;
   const Submission& submission;
-  const Texts& own;  // the assignment's texts, whose layouts mark angles
+  const Texts& own;  // the assignment's texts; their layouts mark angles
   std::filesystem::path program;
-  std::filesystem::path scratch;  // folder for built files; need not exist
+  std::filesystem::path scratch;  // folder for built files, which need not exist
 };
 
-/// Runs the experiments on a part's wrong answers: single precision, state kept between calls, an angle in degrees, an
-/// integer division. The key is empty if none applies.
+/// Runs experiments on a part's wrong answers: single precision, state kept between calls, an angle in degrees, an
+/// integer division. The remark's key is empty if none of them is the cause.
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part);
 
-/// Returns false if std::regex could overflow the stack on a source without comments and strings: it uses stack for
-/// each character of a run of blanks or of a word, and the experiments search for each word in the whole source.
+/// Returns false if std::regex could overflow the stack on this source. It uses stack for each character of a run of
+/// blanks or of a word, and the experiments search for each word in the whole source.
 bool can_be_searched(const std::string& source);
 
-/// Possible integer divisions: the positions of `/` in a source without comments and strings, between operands that
-/// look like integers: literals, integer variables, size(), and brackets beside a literal.
+/// Possible integer divisions: positions of `/` in the source (outside of comments and strings) between operands that
+/// look like integers: literals, integer variables, size(), or brackets next to a literal.
 std::vector<std::size_t> whole_divisions(const std::string& source);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Random vectors, and vectors as numbers of a call, for the cases of several assignments.
+// Random vectors, and conversion of vectors to numbers of a call, for several assignments.
 #pragma once
 
 #include <cmath>
