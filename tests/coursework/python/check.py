@@ -1,10 +1,10 @@
 """Runs the public tests on your functions, and prints the expected numbers next to yours.
 
 python3 check.py                all tests
-python3 check.py 2 3.1          tests whose number begins with one of these; also the name of a part
+python3 check.py 2 3.1          tests whose number begins with 2 or 3.1; the name of a part selects its tests
 python3 check.py --lang zh      in another language
 
-Causes of mistakes, and hidden tests, come with the grading. Needs Python 3.8 or newer and NumPy.
+Only the grader finds causes of mistakes and runs hidden tests. Needs Python 3.8 or newer and NumPy.
 """
 import argparse
 import importlib
@@ -22,11 +22,11 @@ except ModuleNotFoundError:
 import calls
 from drawing_stubs import DrawingFinder
 
-MOST_SHOWN = 12  # numbers of a case
+MOST_SHOWN = 12  # numbers of a case that are printed
 
 
 def reader(numbers):
-    """take() is the next number, take(2, 3) the next array of this shape."""
+    """Returns a function: take() returns the next number, take(2, 3) the next array of this shape."""
     rest = iter(numbers)
 
     def take(*shape):
@@ -35,7 +35,7 @@ def reader(numbers):
 
 
 def as_array(what, value, *shape):
-    """The value as an array of this shape, in which -1 is any length; a TypeError for anything else."""
+    """Returns the value as an array of this shape; -1 stands for any length. Raises TypeError for anything else."""
     if value is None or isinstance(value, (str, bytes, dict, set)) or callable(value) or np.iscomplexobj(value):
         raise TypeError(f"{what}: expected numbers, got {value if value is None else type(value).__name__}")
     array = np.array(value, dtype=float)
@@ -59,7 +59,7 @@ def read_texts(language):
 
 
 def read_tests():
-    """The public tests, and the number of hidden ones. Small cases are for the C++ check."""
+    """Returns the public tests and the number of hidden tests. Skips small cases, which only the C++ check uses."""
     tests, hidden, case = [], 0, {}
     with open(os.path.join(HERE, "check", "public_cases.txt"), encoding="utf-8") as file:
         for word, _, rest in (line.strip().partition(" ") for line in file):
@@ -104,7 +104,7 @@ def table(texts, case, got):
 
 
 def run(test, texts):
-    """What is wrong with the first case that fails; empty if all pass."""
+    """Describes the first case that fails; returns an empty string if all cases pass."""
     for number, case in enumerate(test["cases"], 1):
         try:
             parts = calls.answer(case["call"], reader(case["in"]), student, as_array)

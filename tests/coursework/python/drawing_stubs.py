@@ -1,4 +1,4 @@
-"""Stands in for modules that draw, so that code which imports them can be tested."""
+"""Replaces modules that draw, so that code which imports them can be tested."""
 import types
 from importlib.util import spec_from_loader
 
@@ -26,7 +26,7 @@ class Nothing(types.ModuleType):
     def __bool__(self):
         return False
 
-    def __iter__(self):  # figure, axes = subplots(); line, = plot(...)
+    def __iter__(self):  # used by: figure, axes = subplots(); line, = plot(...)
         return iter([Nothing(), Nothing()] if self.__name__ == "subplots" else [Nothing()])
 
     def __mro_entries__(self, bases):
@@ -34,7 +34,7 @@ class Nothing(types.ModuleType):
 
 
 class DrawingFinder:
-    """Finds modules for drawing, whether they are installed or not; belongs into sys.meta_path."""
+    """An entry of sys.meta_path that replaces modules for drawing, whether they are installed or not."""
     exec_module = staticmethod(lambda module: None)
     create_module = staticmethod(lambda spec: Nothing(spec.name))
 

@@ -1,11 +1,11 @@
 """Runs a part of a student's Python code: calls its functions on request, over descriptors 4 (in) and 5 (out).
 
 python3 -I -B loader.py serve|import PART FUNCTIONS OFFICIAL FOLDER...
-FUNCTIONS: those of the part, with commas. OFFICIAL: earlier parts and their official functions, as in
-"spring=spring_force;...". FOLDER: where the student's modules are, those beside the part first. `import` only imports
-the part and reports the outcome on descriptor 3.
+FUNCTIONS: names of the part's functions, separated by commas. OFFICIAL: earlier parts and their official functions, as
+in "spring=spring_force;...". FOLDER: a folder of the student's modules; the part's folder comes first. `import` only
+imports the part and reports the outcome on descriptor 3.
 
-Tests, answers, f and official functions are in the process at the other end; remote.h describes the messages.
+Tests, answers, f and official functions are in the process at the other end. remote.h describes the messages.
 """
 import os
 import sys
@@ -26,7 +26,7 @@ from drawing_stubs import DrawingFinder
 
 
 class Remote:
-    """A function at the other end."""
+    """A function of the process at the other end."""
 
     def __init__(self, name):
         self.__name__ = name
@@ -37,7 +37,7 @@ class Remote:
 
 
 class Official(types.ModuleType):
-    """An earlier part: its official functions, and for all other names the student's own file."""
+    """An earlier part: it has the official functions; all other names are those of the student's own file."""
 
     def __init__(self, name, functions):
         super().__init__(name)
@@ -61,7 +61,7 @@ lent = []  # functions of the student's that were passed to the other end
 
 
 def encoded(value):
-    """A number, an array, an object or a function as words; a TypeError for anything else."""
+    """Returns a number, an array, an object or a function as words. Raises TypeError for anything else."""
     if callable(value):
         lent.append(value)
         return f"f {len(lent) - 1}"
@@ -74,7 +74,7 @@ def encoded(value):
 
 
 def decoded(kind, words):
-    """The value of this kind whose other words come next."""
+    """Returns a value: `kind` is its first word, and `words` yields the others."""
     count = int(next(words))
     if kind == "f":
         return Remote(f"f{count}")
@@ -92,7 +92,7 @@ def send(*words):
 
 
 def reply():
-    """The other end's reply to our call; serves its calls until then."""
+    """Returns the other end's reply to our call. Until the reply arrives, serves calls of the other end."""
     while line := inbox.readline().decode():
         kind, *rest = line.split()
         words = iter(rest)
@@ -125,7 +125,7 @@ def serve(name, words):
 
 
 def told(error):
-    """File, line, exception, and values of the names in that line, for the innermost call in the student's files."""
+    """Describes an exception: file and line of the innermost call in the student's files, and the line's variables."""
     what = type(error).__name__ + (f": {error}" if str(error) else "")
     if isinstance(error, SyntaxError) and error.filename:
         return one_line(f"{os.path.basename(error.filename)}, line {error.lineno}: {type(error).__name__}: {error.msg}")
@@ -148,13 +148,13 @@ def one_line(text):
 
 
 def load():
-    """The part's functions, by name."""
+    """Imports the part, and returns a dictionary of its functions by name."""
     module = importlib.import_module(part)
     return {name: getattr(module, name) for name in names if callable(getattr(module, name, None))}
 
 
 def outcome():
-    """What happens when the part is imported, for the grader."""
+    """Imports the part, and returns the outcome for the grader."""
     try:
         missing = [name for name in names if name not in load()]
         return f"undefined {missing[0]}" if missing else "good"
@@ -166,7 +166,7 @@ def outcome():
 
 mode, part, names, official, *folders = sys.argv[1:]
 names = names.split(",")
-# NumPy is here; anything else that is installed beside it stays out
+# NumPy has been imported; other installed packages must not be
 sys.path[:] = folders + [path for path in sys.path[1:] if not path.endswith("-packages")]
 sys.meta_path.insert(0, DrawingFinder)
 for earlier, _, theirs in (each.partition("=") for each in official.split(";") if each):

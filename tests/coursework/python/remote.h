@@ -1,10 +1,10 @@
-// The student's functions in a Python interpreter, called over descriptors 4 (from it) and 5 (to it). The interpreter
-// runs loader.py. Messages are lines of words, in both directions; calls may be nested:
-//   call NAME VALUE...                   to it: a function of the student's; from it: f0, f1, ... (functions that were
-//                                        arguments) and official functions
+// Calls the student's functions in a Python interpreter, over descriptors 4 (from the interpreter) and 5 (to it). The
+// interpreter runs loader.py. Messages are lines of words, in both directions; calls may be nested:
+//   call NAME VALUE...                   to the interpreter: a function of the student's; from the interpreter: an
+//                                        official function, or f0, f1, ... (functions that were arguments)
 //   return VALUE [changed I VALUE]...    the value, and arguments that the function has overwritten, as NumPy allows
-//   threw TEXT                           only from it: an exception, with its place
-//   refused                              only to it: f cannot be called like this
+//   threw TEXT                           only from the interpreter: an exception, with file and line
+//   refused                              only to the interpreter: f does not accept these arguments
 // VALUE is an array: a DIMENSIONS SIZE... NUMBER...; an object: o FIELDS (NAME VALUE)...; or a function: f ID.
 // C++17, standard library and POSIX only.
 #pragma once
@@ -29,7 +29,7 @@
 
 namespace coursework {
 
-/// Reads a line word by word. A missing word is empty, a missing number 0.
+/// Reads a line word by word. A missing word is returned as an empty string, a missing number as 0.
 class Words {
  public:
   explicit Words(const std::string& line) : at_(line.c_str()) {}
@@ -52,7 +52,7 @@ template <class T, class = void>
 constexpr bool is_vector = false;
 template <class T>
 constexpr bool is_vector<T, std::void_t<decltype(T::x), decltype(T::z)>> = true;
-/// Number of dimensions of the NumPy array for a number, a vector or a list of either; -1: none.
+/// Number of dimensions of the NumPy array for a number, a vector or a list of either; -1 for all other types.
 template <class T>
 constexpr int dimensions = std::is_same_v<T, double> ? 0
                            : is_vector<T>            ? 1
@@ -82,7 +82,7 @@ void write_array(std::string& line, const T& value) {
   for (const double number : numbers) line.append(text, std::snprintf(text, sizeof text, " %a", number));
 }
 
-/// Throws Unusable if the array has another shape.
+/// Reads an array. Throws Unusable if it has another shape.
 template <class T>
 T read_array(Words& words) {
   if (words.next() != "a") throw Unusable("arguments");
@@ -144,7 +144,7 @@ class Python {
     }
   }
 
-  /// Lets the student call an official function.
+  /// Makes an official function available to the student.
   template <class R, class... A>
   void offer(const std::string& name, R (*function)(A...)) {
     functions_[name] = answering<R, A...>(function);
@@ -167,7 +167,7 @@ class Python {
   T take(Words& words, T*) {
     if constexpr (dimensions<T> >= 0) {
       return read_array<T>(words);
-    } else {  // its fields in the order in which they were sent
+    } else {  // an object: its fields in the order in which they were sent
       T object{};
       if (words.next() != "o") throw Unusable("arguments");
       words.count();
@@ -193,7 +193,7 @@ class Python {
   void put(std::string& line, const T& value) {
     if constexpr (dimensions<T> >= 0) {
       write_array(line, value);
-    } else {  // an assignment's python.cpp names the fields of its types
+    } else {  // an object: the assignment's python.cpp names the fields of its types
       T object = value;
       std::string fields;
       int count = 0;
@@ -204,7 +204,8 @@ class Python {
     }
   }
 
-  /// Python's arguments are never const. Assigns in place, since the elements of a list do not move.
+  /// Overwrites an argument, because arrays are never const in Python. Assigns in place, so that the elements of a list
+  /// do not move.
   template <class T>
   static void overwrite(const T& value, Words& words) {
     if constexpr (dimensions < T >> 0) {
@@ -249,19 +250,19 @@ class Python {
     return line;
   }
 
-  /// The interpreter is gone: ends like a program that is too slow, with the counts of calls.
+  /// Called when the interpreter has ended: ends like a program that is too slow, and reports the counts of calls.
   [[noreturn]] static void end() {
     std::raise(SIGXCPU);
     _exit(3);
   }
 
-  std::map<std::string, Function> functions_;  // that the interpreter may call
-  std::size_t lent_ = 0;                       // number of functions that are arguments of the current calls
+  std::map<std::string, Function> functions_;  // functions that the interpreter may call
+  std::size_t lent_ = 0;                       // number of functions passed as arguments of the current calls
   std::exception_ptr failure_;
   std::string buffer_;
 };
 
-/// Offers the official functions of earlier parts; each assignment's python.cpp defines it.
+/// Offers the official functions of earlier parts. Defined in the assignment's python.cpp.
 void offer_official(Python& python);
 
 inline Python::Python() {
