@@ -174,10 +174,6 @@ std::string engine_of(const std::string& method) {
   return family_of(method).role == Role::outside ? method : method.substr(0, method.find('/'));
 }
 
-std::string name_beside_engine(const std::string& method) {
-  return family_of(method).role == Role::outside ? method : method.substr(method.find('/') + 1);
-}
-
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table) {
   std::vector<std::string> engines;

@@ -37,8 +37,6 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 /// Name of a method's engine: "mysim" for "mysim/leapfrog". The user's programs and trajectories are separate engines:
 /// "exec:./a".
 std::string engine_of(const std::string& method);
-/// Short name of a method: "leapfrog", "exec:./a".
-std::string name_beside_engine(const std::string& method);
 
 /// Adds an EngineSpeedRow for each engine with a timed run within `bound` (m), from which the truth's error bar is
 /// already subtracted. The row has the engine's cheapest run, and the ratio of its time to that of mysim's cheapest

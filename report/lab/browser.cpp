@@ -16,8 +16,8 @@
 
 /// Throws a JavaScript error, and therefore never returns.
 IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const char* message);
-/// Returns 1 if the expression (ECMAScript grammar) matches a part of the text, or, if `whole`, the whole text.
-IMPORT(matches) int page_matches(const char* expression, const char* text, int whole);
+/// Returns 1 if the expression (ECMAScript grammar) matches a part of the text.
+IMPORT(matches) int page_matches(const char* expression, const char* text);
 
 // The runtime's `throw`. The first base of every exception of mysim and its libraries is std::exception.
 extern "C" {
@@ -43,7 +43,7 @@ struct Pattern::Compiled {
 Pattern::Pattern(std::string_view expression) : compiled_(new Compiled{std::string(expression)}) {}
 Pattern::~Pattern() = default;
 bool Pattern::is_in(const std::string& text) const {
-  return page_matches(compiled_->expression.c_str(), text.c_str(), 0) != 0;
+  return page_matches(compiled_->expression.c_str(), text.c_str()) != 0;
 }
 
 namespace simd {

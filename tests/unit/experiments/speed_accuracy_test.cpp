@@ -109,8 +109,6 @@ TEST(SpeedAccuracy, AProgramIsAnEngineOfItsOwn) {
   EXPECT_EQ(engine_of("exec:/opt/b/a+n=10"), "exec:/opt/b/a+n=10");
   EXPECT_EQ(engine_of("exec:a"), "exec:a");
   EXPECT_EQ(engine_of("file:a.npy"), "file:a.npy");
-  EXPECT_EQ(name_beside_engine("mysim/leapfrog+sticky"), "leapfrog+sticky");
-  EXPECT_EQ(name_beside_engine("exec:./a"), "exec:./a");
 }
 
 TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
