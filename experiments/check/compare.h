@@ -8,8 +8,8 @@
 
 namespace crosscheck {
 
-/// The largest distance of a particle between two runs, relative to the bound (m) of each sample, at the sample with
-/// the largest ratio. Ignores the first sample whose bound exceeds a hundredth of `lengths` (m) and all later ones,
+/// The largest ratio, over all samples, of the largest distance of a particle between the two runs to the bound (m) of
+/// that sample. Ignores the first sample whose bound exceeds a hundredth of `lengths` (m) and all later ones,
 /// because the motion is unpredictable from there. Throws CannotBeAsked if that happens at the first sample.
 RelationResult farthest(std::string what, const Trajectory& a, const Trajectory& b, const std::vector<double>& bound,
                         double lengths);

@@ -76,8 +76,9 @@ class ImplicitStep {
   /// pairs, which defines the system.
   explicit ImplicitStep(System& f, bool plain = false);
 
-  /// Solves the implicit Euler equations for a step of h (s) from s, to the larger of round-off and force_tolerance;
-  /// returns the end state. Throws SolverFailure if Newton's method does not converge.
+  /// Solves the implicit Euler equations for a step of h seconds from state `s`, until the residual is below
+  /// force_tolerance or round-off, whichever is larger. Returns the end state. Throws SolverFailure if Newton's method
+  /// does not converge.
   const State& solve(const State& s, double h);
   /// One Newton step from y = x_n + h v_n with the clamped matrix, to force_tolerance.
   const State& solve_linear(const State& s, double h);

@@ -53,7 +53,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_class(verdict)), own.style, own.points.back().first,
                               own.points.back().second});
     }
-    // removes the reference, and runs without a result, which are drawn as crosses
+    // removes the curves of the reference and of failed runs; failed runs are drawn as crosses
     std::erase_if(f.curves, [](const Curve& c) { return c.points.size() < 2; });
     charts.push_back(
         described("{name}-disagreement", std::move(f), "name"_a = row.name, "what"_a = row.what,

@@ -22,8 +22,8 @@ std::vector<std::string> representatives();
 /// representatives() and the sticky sphere, for scenes with contact.
 std::vector<std::string> representatives_in_contact();
 
-/// True for representatives of engines and for users' programs, which are the methods that findings name if they name
-/// only a few.
+/// True for representatives of engines and for users' programs. Findings that name only a few methods choose from
+/// these.
 bool stands_for_its_engine(const std::string& method);
 /// True for engines other than mysim, but not for truths.
 bool is_another_engine(const std::string& method);

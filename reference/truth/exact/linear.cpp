@@ -113,7 +113,7 @@ std::optional<Line> line_through(const Scene& scene, const Vec3& acceleration) {
   return Line{n, (x.colwise() - x.col(0)).transpose() * n, v.transpose() * n};
 }
 
-/// Sum over pairs of value times the difference of the ends.
+/// Weighted graph Laplacian: row i of its product with x is the sum over pairs p = (i, j) of value(p) * (x_i - x_j).
 template <class Pairs, class Value>
 Eigen::MatrixXd laplacian(const Pairs& pairs, int n, Value value) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);

@@ -108,7 +108,7 @@ class FileMatcher {
   void choose(Submission& submission) const;
   std::vector<std::string> wanted_, roles_;
   std::map<std::string, std::vector<Found>> found_;  // wanted name -> files in the order of reading
-  std::map<std::string, std::string> beside_;        // path -> content of files that wanted files may include
+  std::map<std::string, std::string> beside_;        // path -> content of headers that the wanted files may include
   std::size_t taken_ = 0, beside_size_ = 0;          // byte
 };
 

@@ -71,7 +71,7 @@ bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part
   return false;
 }
 
-/// True if all wrong cases are right in the program `program`, or with changed inputs and the same expected answers.
+/// True if every wrong case passes when `program` runs it or `changed` modifies its inputs; expected answers stay.
 template <class Changed>
 bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part, Changed changed) {
   for (const TestRun& one : of_part) {

@@ -113,9 +113,9 @@ std::vector<Case> next_position(Random& random) {
   return cases;
 }
 
-/// Orders of the errors of one step, and after a time from 4 / omega to 5 / omega, at which a cosine of a small phase
-/// is not near a zero. With a = h omega, the error after this time is C a^2 (1 + O(a / 4)), which changes the order by
-/// less than 0.05 for a below 0.12. The error of one step is C a^4 (1 + O(a^2)).
+/// Orders of two errors: that of one step, and that at a time between 4 / omega and 5 / omega, where a cosine with a
+/// small phase error is not close to zero. With a = h omega, the error after this time is C a^2 (1 + O(a / 4)), which
+/// changes the order by less than 0.05 for a below 0.12. The error of one step is C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
   std::vector<Case> cases;
   for (const double halvings : {2, 1, 3}) {
@@ -149,8 +149,8 @@ double verlet_error(double a, double steps) {
   return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
 }
 
-/// Cases whose expected answer is the actual error, from the closed form. It differs from the given error divided by
-/// `times` squared by the next power of a, which is at most 3 % for a below 0.06.
+/// Cases whose expected answer is the actual error, from the closed form. It deviates from the
+/// estimate, (given error) / times^2, by a term of the next order in a, at most 3 % for a below 0.06.
 std::vector<Case> smaller_steps(Random& random) {
   std::vector<Case> cases;
   for (const int times : {2, 4, 10}) {

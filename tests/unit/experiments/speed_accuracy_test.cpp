@@ -17,8 +17,8 @@ namespace {
 using namespace testing_tools;
 
 TEST(Timing, MedianAndItsIntervalFollowTheOrderOfTheTimes) {
-  // The k-th smallest and the k-th largest of n times bound the median with 90 % confidence, where k = 1 from n = 5, 2
-  // from n = 8, 3 from n = 11, and 4 from n = 13.
+  // With n measured times, the k-th smallest and the k-th largest are a 90 % confidence interval of the median; k is 1
+  // from n = 5, 2 from n = 8, 3 from n = 11, and 4 from n = 13.
   const std::vector<std::pair<int, int>> ranks = {{1, 1}, {3, 1}, {5, 1}, {7, 1}, {8, 2}, {10, 2}, {11, 3}, {13, 4}};
   for (const auto& [n, k] : ranks) {
     SCOPED_TRACE(n);

@@ -234,7 +234,7 @@ struct Trial {
   Verdict every = Verdict::ok;            // from every step
   long when_verdict = 0, when_every = 0;  // steps of these verdicts
   double most = 0;                        // K^ / B of mysim/run/observers.h
-  double margin = 0;                      // 1, limit with all springs stretched far divided by the step, minus 1
+  double margin = 0;                      // dimensionless: (limit with all springs stretched far) / step - 1
   bool wrong(Verdict said) const { return within ? said != Verdict::ok : said == Verdict::ok; }
 };
 

@@ -194,7 +194,8 @@ TEST(Forces, TurnAndMoveWithTheBody) {
           const T *here = net.model.find<T>(), *there = moved.model.find<T>();
           ASSERT_TRUE(here && there) << "add the new force to the network: " << T::name;
           const Points expected = turn * force_of(*here, net);
-          // Lengths lose some ulps of 3 m, times k of up to 100 N/m in five springs. Other forces are weaker.
+          // Round-off: a few ulps of lengths up to 3 m, times a stiffness of up to 100 N/m, in five springs. Other
+          // forces are weaker.
           EXPECT_LT((force_of(*there, moved) - expected).cwiseAbs().maxCoeff(), 5 * 100 * 3 * 16 * eps) << T::name;
         }
       });

@@ -35,7 +35,7 @@ class InBrowser : public InFolder {
     return run_program(call, folder_);
   }
 
-  /// True if the clock is not simulated; the page then reports its end by its load event (real_time.js).
+  /// True if the page runs in real time. Its load event then signals that the test has finished (real_time.js).
   bool real_time_ = false;
 
   /// Script elements that contain these files of tests/unit/report.

@@ -43,7 +43,7 @@ class Asker {
   /// result that differs in few entries, or empty.
   virtual Some some(const State& given, const Indices& which) = 0;
   virtual State changed(const State& given, const State& known) = 0;
-  /// Ends the record. `drawn` is one more draw, which answers that were recorded with another seed cannot contain.
+  /// Ends the record with one more random number, `drawn`, which shows that the answers belong to this seed.
   virtual void end(float drawn) = 0;
 };
 
