@@ -105,13 +105,21 @@ std::string gravity_shown(const Texts& own, const Findings& found) {
                   vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// Shows the velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag.
+/// Shows the velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag; if
+/// drag is not proportional to the own velocity, for a particle that shows this, with its v' at 2 w.
 std::string drag_shown(const Texts& own, const Findings& found) {
-  const auto i = least_of(found, 1, 3, drag_on);
+  auto i = least_of(found, 1, 3, drag_on);
   if (!i || found.n >= most_in_order) return "";
+  const auto depends_on_others = [&](std::size_t k) { return drag_on(found, k) != 0 && !is_proportional(found, k); };
+  for (std::size_t k = 0; k < found.n && !depends_on_others(*i); ++k)
+    if (is_free(found, k, 1, 3) && depends_on_others(k)) i = k;
   const auto& [w, at_rest, once, twice] = found.row(*i);
   std::string text =
       own.fill("shown.drag", std::to_string(*i), vector_text(at_rest), vector_text(once), vector_text(w));
+  if (depends_on_others(*i))
+    return text + " " +
+           own.fill("shown.drag_others", vector_text(probe::plus(w, 1, w)), vector_text(w), vector_text(twice),
+                    vector_text(proportional_drag(found, *i)));
   std::vector<std::string> alike;
   for (std::size_t k = 0; k < found.n; ++k)
     if (is_free(found, k, 1, 3) && std::abs(drag_on(found, k) - drag_on(found, *i)) < 1e-3)

@@ -105,6 +105,16 @@ double drag_on(const Findings& found, size_t i) {
   return std::abs(rate) > 1e-3 ? rate : 0;
 }
 
+Plain proportional_drag(const Findings& found, size_t i) {
+  const auto& [w, at_rest, at_w, at_2w] = found.row(i);
+  return probe::plus(probe::plus(at_w, 1, at_w), -1, at_rest);
+}
+
+bool is_proportional(const Findings& found, size_t i) {
+  const auto& [w, at_rest, at_w, at_2w] = found.row(i);
+  return length(probe::plus(at_2w, -1, proportional_drag(found, i))) < 0.03f * length(probe::plus(at_w, -1, at_rest));
+}
+
 bool is_free(const Findings& found, size_t i, size_t first, size_t last) {
   for (size_t draw = 0; draw * found.n < found.rows.size(); ++draw)
     for (size_t k = first; k <= last; ++k)
@@ -143,9 +153,8 @@ Features drag(const Findings& found) {
     ++all;
     const double rate = drag_on(found, i);
     plus += rate > 0, minus += rate < 0, loose[i] = rate == 0;
-    const Plain once = probe::plus(at_w, -1, at_rest), bent = probe::plus(probe::plus(at_2w, -1, at_w), -1, once);
-    const Plain across = probe::plus(once, static_cast<float>(rate), w);
-    straight += rate != 0 && length(bent) < 0.03f * length(once) && length(across) < 0.03f * length(once);
+    const Plain once = probe::plus(at_w, -1, at_rest), across = probe::plus(once, static_cast<float>(rate), w);
+    straight += rate != 0 && is_proportional(found, i) && length(across) < 0.03f * length(once);
   }
   // as for gravity
   if (few(loose, anchors)) all -= count(loose);

@@ -46,6 +46,10 @@ Features gravity(const Findings& found);
 double gravity_on(const Findings& found, std::size_t i);
 double drag_on(const Findings& found, std::size_t i);
 bool is_free(const Findings& found, std::size_t i, std::size_t first, std::size_t last);
+/// proportional_drag: v' of particle i at 2 w, extrapolated from 0 and w. is_proportional: the measured v', with all
+/// other particles at w, is close to it.
+probe::Plain proportional_drag(const Findings& found, std::size_t i);
+bool is_proportional(const Findings& found, std::size_t i);
 /// Drag opposes the velocity (-1: acts along it) | proportional to the velocity
 Features drag(const Findings& found);
 
