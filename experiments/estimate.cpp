@@ -155,7 +155,6 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 namespace {
 
-/// Reports the progress of a run at its samples, and forwards all calls.
 class ProgressObserver : public Observer {
  public:
   ProgressObserver(Observer& inner, double duration, Progress& progress)

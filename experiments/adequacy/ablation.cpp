@@ -20,7 +20,6 @@ std::string rule_for(const Scene& scene) {
   return scene.model.first_order() ? "mysim/rk4" : "mysim/leapfrog";
 }
 
-/// The run up to `until`, with the scene's own sampling interval.
 Run run_until(const Scene& scene, double until, double step) {
   Run run = default_run(scene);
   const double interval = scene.duration / scene.samples;

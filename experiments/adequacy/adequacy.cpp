@@ -19,7 +19,6 @@ namespace {
 
 constexpr unsigned unseen_starts = 3;
 
-/// Largest RMS speed of the particles, m/s.
 double largest_speed(const Trajectory& t) {
   double largest = 0;
   for (const Points& v : t.v)
@@ -27,7 +26,6 @@ double largest_speed(const Trajectory& t) {
   return largest;
 }
 
-/// Removes the named ingredients in this order.
 Scene without_all(Scene scene, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     for (const Ingredient& i : ingredients_of(scene))
@@ -39,7 +37,7 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
 }
 
 /// Error (m) of the smallest model from another start, relative to the full model with the same method and step. If
-/// nothing can be left out: the smallest error after any single removal. Empty if the full model itself fails.
+/// nothing can be left out: the smallest error of a single removal. Empty if the full model fails.
 std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
                                    const std::vector<std::string>& out) {
   Recorder full;

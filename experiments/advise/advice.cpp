@@ -60,7 +60,6 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   }
 }
 
-/// The scene file, with the model, method and step that the search chose.
 std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen, const Method& method) {
   TomlDocument file(a.scene.source, a.scene.name);
   for (const Ingredient& i : model.out)
@@ -183,8 +182,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
   if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
-/// Writes the scene file of the chosen run, and runs it as `crosscheck run` does, with its error observed after every
-/// step. Returns false if this error exceeds the tolerance.
+/// Writes the chosen run's scene and runs it. Returns false if the error after any step exceeds the tolerance.
 bool written_and_checked(Advice& a, const std::vector<Candidate>& models, const DenseTruth& path) {
   const Trial& chosen = a.trials[a.chosen];
   const Candidate& model = *std::ranges::find(models, chosen.model, &Candidate::name);

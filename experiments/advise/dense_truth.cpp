@@ -32,8 +32,7 @@ double first_spacing(const Scene& scene) {
   return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Number of dense samples with this spacing per sample of the scene. Throws CannotGuarantee if they do not fit in
-/// memory.
+/// Dense samples with this spacing per sample of the scene. Throws CannotGuarantee if they do not fit in memory.
 int samples_at(const Scene& scene, double spacing) {
   const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());

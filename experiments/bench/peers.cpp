@@ -55,9 +55,8 @@ class PeerRuns {
   double error_bar() const { return bar_; }
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
-  /// Runs of mysim, for each method from long steps to short ones. A method stops when the error of a run is at most
-  /// `wanted` (m), when it takes more than `most` evaluations, or when another method has been more accurate without
-  /// needing more evaluations. Includes single precision if the cloth is wide enough.
+  /// Runs of each method from long steps to short ones, also in single precision if the cloth is wide enough. A method
+  /// stops at the error `wanted` (m), after `most` evaluations, or when another method was more accurate with as few.
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
@@ -128,8 +127,7 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Enters mysim's cheapest run with an error of at most `bound` (m), its time and the ratio in the row. Returns false
-/// if no run is that accurate.
+/// Enters the time and ratio of mysim's cheapest run with an error of at most `bound` (m). Returns false if none is.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {

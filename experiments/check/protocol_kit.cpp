@@ -113,7 +113,7 @@ class Kit {
            const char* section) {
     add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
   }
-  /// Adds a line. It is ok if `work` throws no InputError; otherwise it contains the error message without the folder.
+  /// Adds a line, which contains the error message without the folder if `work` throws InputError.
   bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
                  const std::function<std::string()>& work) {
     try {

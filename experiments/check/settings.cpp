@@ -10,8 +10,7 @@
 namespace crosscheck {
 namespace {
 
-/// Throws CannotBeAsked if the method chooses its steps, and RunFailed if it ignores the requested step and uses its
-/// own.
+/// Throws CannotBeAsked if the method chooses its steps, and RunFailed if it ignores the requested step.
 void require_own_step(const Method& method) {
   if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
   if (method.identify && method.identify().kind == FoundRule::ignores_step)

@@ -194,8 +194,8 @@ Scene scaled(Scene scene, const Scaling& scaling) {
 
 namespace {
 
-/// Index of each particle's mirror image, which has the mirrored position and velocity, the same mass, and is pinned
-/// alike. Returns nullopt if any particle has no image.
+/// Index of each particle's mirror image, with mirrored motion, the same mass and pin. Returns nullopt if one is
+/// missing.
 std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
   const Particles& p = scene.model.particles;
   std::vector<int> image(p.size(), -1);
@@ -247,7 +247,6 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
   return all;
 }
 
-/// True if directions and positions of wind, gravity, surfaces, etc. agree.
 bool same_outside(const Scene& scene, const Scene& other, double near) {
   const auto same = [](const Vec3& a, const Vec3& b) { return (a - b).norm() <= 1e-12 * a.norm(); };
   const auto same_motion = [&](const std::optional<Motion>& a, const std::optional<Motion>& b) {

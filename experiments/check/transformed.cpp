@@ -17,8 +17,7 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
                   subject.noise_with_unsolved(scene, lengths).x, lengths);
 }
 
-/// Bound for two runs that differ in the order of summation or iteration: the error of the iterations of each run is
-/// added.
+/// Bound for runs that differ in the order of summation or iteration: adds the error of each run's iterations.
 std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
   std::vector<double> bound = subject.noise(scene).x;
   for (const Scene* one : {&scene, &other})

@@ -111,7 +111,6 @@ void plane_probes(const Request&, const Method& method, TableSet& tables) {
   tables.add(table);
 }
 
-/// Measures the orders of a rule with contact, also with event location.
 void orders_of_contact(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ContactOrderRow>();
   std::vector<Method> methods = {method};

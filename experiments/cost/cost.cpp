@@ -66,7 +66,6 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-/// A run of `steps` steps without samples in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
 /// Number of steps that take about 10 ms according to the estimate.
@@ -95,8 +94,7 @@ TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outc
   return loop;
 }
 
-/// Times (s) of one step or call of each loop. Quick measurements run loops of 5 ms without a warm-up, and loops of 10
-/// ms twice.
+/// Times (s) of one step or call. Quick measurements run loops of 5 ms without a warm-up, and of 10 ms twice.
 std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
   std::vector<std::function<double()>> runs;
   for (const TimedLoop& loop : loops) runs.push_back(loop.run);

@@ -19,8 +19,7 @@ std::string filled(const std::string& name, const std::vector<std::pair<std::str
   return text;
 }
 
-/// The row's program or, for a Bullet world, the installed version of Bullet (from the tables' line of engines) and the
-/// world.
+/// The row's program, or the installed version of Bullet (from the tables' line of engines) and the world.
 std::string version_of(const DisagreementRow& row, const std::string& engines) {
   if (row.world.starts_with(program_prefix)) return row.world;
   const size_t bullet = engines.find("Bullet");  // Bullet is the last engine

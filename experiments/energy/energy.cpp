@@ -16,12 +16,10 @@ namespace {
 
 constexpr long all_steps = 100000;
 constexpr int samples = 200;
-/// Rules that solve an equation in each step are meant for long steps: their steps are longer than the scene's by this
-/// factor.
+/// Factor by which steps of implicit rules, which are meant for long steps, exceed the scene's.
 constexpr int longer = 10;
 
-/// A scene with all energy sources and sinks: a cloth whose two moving corners are pinned swings in gusts against a
-/// ball, with drag and dashpots.
+/// All sources and sinks of energy: a cloth with two moving pins, gusts, a ball, drag and dashpots.
 Scene everything() {
   return parse_scene(
       "question = \"Where does the energy go when everything acts at once?\"\n"
@@ -36,9 +34,8 @@ Scene everything() {
       "all-at-once");
 }
 
-/// Number of steps (of the scene's own length) that determines the duration of all runs: the number that the slowest
-/// engine's representative can take within a CPU budget. The budget of a full run suffices for all steps of a cloth of
-/// 10 x 10.
+/// Number of the scene's steps in all runs: as many as the slowest engine's representative takes within a CPU budget.
+/// In a full run the budget suffices for all steps of a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
   double of_all = 0;
@@ -80,8 +77,7 @@ EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& ou
   return row;
 }
 
-/// Adds two hundred rows at equal intervals, the first 40 rows, and rows at indices that grow by a factor of 1.12,
-/// which resolve the beginning.
+/// Adds 200 rows at equal intervals, the first 40, and rows at indices that grow by 1.12 to resolve the beginning.
 void add_thinned(Table& table, const Method& method, const ThinnedLedger& ledger, double duration) {
   const std::vector<LedgerRow>& rows = ledger.rows();
   double worst = 0, next = 0;

@@ -110,8 +110,7 @@ struct Standards {
   double omega = 0;   // rad/s, fastest vibration at the start
 };
 
-/// Certifies the scene that another engine built. If it differs from the requested scene, the run counts as
-/// unsupported.
+/// Certifies the scene that the engine built. If it differs, the run counts as unsupported.
 void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
   if (out.verdict == Verdict::unsupported || method.stepper) return;
   tables.certificates.push_back(certify(method.name, scene, out));

@@ -17,8 +17,8 @@ constexpr double gravity = 9.81, hanging_span = 0.7 * strip_length;
 
 double cell_of(const StripNet& net) { return strip_length / net.cells; }
 
-/// Two rows of particles along a strip that begins at `from`. The springs extend by a millionth of its length under the
-/// load (N/m). Bending rigidity and skip-one stiffness are left out if they are 0.
+/// The springs extend by a millionth of the strip's length under the load (N/m). A rigidity or skip-one stiffness of 0
+/// is left out.
 Scene two_rows(int cells, double from, double load, const std::array<int, 4>& pins, double rigidity, double skip_one) {
   const double d = strip_length / cells, k = load * 1e6 / 2;  // two rows, each with stiffness k, on a width of d
   return parse_scene(

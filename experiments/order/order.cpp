@@ -43,7 +43,6 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   return Fit{slope(p, r), p->step, r->step};
 }
 
-/// Reason for which a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene) {
   if (has_contact(scene.model)) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";

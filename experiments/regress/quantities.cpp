@@ -16,7 +16,6 @@
 namespace crosscheck {
 namespace {
 
-/// Indices of the frames at the ends of `parts` equal parts of the run.
 std::vector<int> frames_at(const Trajectory& path, int parts) {
   std::vector<int> frames;
   for (int i = 1; i <= parts; ++i) {
@@ -123,8 +122,7 @@ void smallest_clearance(const Observation& seen, Quantities& out) {
   out.push_back({"smallest clearance", "m", least});
 }
 
-/// The truth over the scene's run if it has a closed form; otherwise nullopt, because a converged truth takes minutes
-/// to compute.
+/// The truth if it has a closed form; otherwise nullopt, because a converged truth takes minutes.
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
   const auto truth = truth_of(scene, default_run(scene));

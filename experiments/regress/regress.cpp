@@ -145,8 +145,7 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// The other engine's quantities as expected values. Ignores quantities that only one of the two engines has; a verdict
-/// is available from both.
+/// The other engine's quantities as expected values. Ignores those of only one engine; both have a verdict.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;
@@ -155,7 +154,7 @@ std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTo
   return expected;
 }
 
-/// Rows of blessed cases that no longer exist, because a method, an ingredient or a scene was removed.
+/// Rows of blessed cases that no longer exist.
 std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
   std::set<std::pair<std::string, std::string>> selected;
   for (const Case& q : all)
@@ -245,8 +244,7 @@ class Change {
     baseline_.blessings.push_back(blessing);
   }
 
-  /// Adds the quantities of a case. Unchanged quantities keep their row and blessing. Throws InputError if a number is
-  /// not finite.
+  /// Unchanged quantities keep their row and blessing. Throws InputError if a number is not finite.
   void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
     selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);

@@ -28,8 +28,8 @@ double rounded_up(double tolerance) {
   return std::ceil(tolerance / unit) * unit;
 }
 
-/// Increases the speed of all free particles along one axis, so that they are displaced by `size` within the run. Equal
-/// rounding errors of all particles add up in the mean offset, where independent directions would average out.
+/// Gives all free particles a speed along one axis that displaces them by `size` within the run. Equal rounding errors
+/// add up in the mean offset, where independent directions would average out.
 Scene pushed(Scene scene, double size, int axis) {
   for (int i = 0; i < scene.start.v.cols(); ++i)
     if (!scene.model.particles.pinned[i]) scene.start.v(axis, i) += size / run_over_window(scene).duration;

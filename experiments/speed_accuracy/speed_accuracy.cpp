@@ -123,8 +123,8 @@ struct SettingRun {
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method at the given settings; empty if it does not support the scene. Notes report settings that the
-/// method refused although it accepted others, and settings for which it built another scene.
+/// Empty if the method does not support the scene. Notes report refused settings, and settings for which it built
+/// another scene.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
                                 std::vector<std::string>& notes) {
@@ -168,7 +168,6 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   return methods;
 }
 
-/// Reason for which a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene, double motion) {
   // if nothing moves, a run of one step is as accurate as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
@@ -232,7 +231,6 @@ std::map<std::string, std::vector<Setting>> searched_settings(const Request& req
   return settings;
 }
 
-/// All settings of both lists, from coarse to fine.
 std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Setting>& more) {
   for (const Setting& each : more)
     if (std::ranges::none_of(settings, [&](const Setting& s) { return std::abs(s.value / each.value - 1) < 1e-9; }))
@@ -241,8 +239,7 @@ std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Set
   return settings;
 }
 
-/// Adds runs of an external engine between the last step that misses the bound and the first step that meets it, so
-/// that the engine's cheapest run is found as precisely as mysim's.
+/// Adds runs between the last step that misses the bound and the first that meets it, for a precise cheapest run.
 void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
             std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
   const auto bound = of.bound();

@@ -16,7 +16,6 @@ constexpr double most_cost = 1e9;                   // a run with this cost take
 
 bool same_search(const TriedRun& a, const TriedRun& b) { return a.method == b.method && a.model == b.model; }
 
-/// True if `a` has a shorter step, or a tighter tolerance, and the same method and model.
 bool is_finer(const TriedRun& a, const TriedRun& b) {
   return same_search(a, b) && a.setting.value < b.setting.value * (1 - 1e-9);
 }
@@ -166,8 +165,8 @@ std::optional<StepSearch::Step> StepSearch::finer(const Method& method, const Ru
   }
 }
 
-/// The next setting to try, given a method's runs so far and the cost of the best run of all methods; nullopt if its
-/// search is complete.
+/// The next setting to try, given the method's runs and the lowest cost of all methods; nullopt if the search is
+/// complete.
 std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, double best) const {
   const Runs runs = known(method);
   if (!runs.empty() && runs.back()->verdict == Verdict::unsupported) return std::nullopt;

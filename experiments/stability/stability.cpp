@@ -26,9 +26,8 @@ PredictionKind kind_of(const PredictedLimit& p) {
                                : PredictionKind::limit;
 }
 
-/// Adds the growth per step of the mode that determines the limit, at steps around the limit, or at a few steps if no
-/// step is stable. In the latter case the growth factor is so close to 1 that runs until a blow-up would take millions
-/// of steps.
+/// Adds the growth per step of the mode that determines the limit: around the limit or, if no step is stable, at a few
+/// steps, where runs until a blow-up would take millions of steps.
 void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
                 TableSet& tables) {
   const Spectrum& s = base.spectrum;
@@ -63,15 +62,14 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   tables.add(table);
 }
 
-/// True for the rule whose failure is shown: the cheapest second-order rule, which the report recommends when stability
-/// limits the step.
+/// True for the cheapest second-order rule, which the report recommends when stability limits the step.
 bool shows_failure(const Method& method) {
   return method.family().is_subject() && method.stepper &&
          method.name == fmt::format("{}/{}", subject().name, method.stepper->name) && method.stepper->order == 2 &&
          method.stepper->evaluations == 1 && method.stepper->symplectic;
 }
 
-/// A run whose samples are h apart, with `per_sample` steps in between. It may end early with a failure.
+/// The run has `per_sample` steps in each interval h, and may fail early.
 Trajectory steps_of(const Method& method, const Scene& scene, double h, int per_sample, int samples) {
   Recorder recorder;
   Run run{h / per_sample, h * samples, samples};
@@ -119,7 +117,6 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
 
 namespace {
 
-/// Reason for which a method is not measured; empty if it is.
 std::string why_not(const Method& method) {
   if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
@@ -127,22 +124,20 @@ std::string why_not(const Method& method) {
   return "";
 }
 
-/// True for large scenes with methods that have no linear limit: they solve an equation in each step and are stable at
-/// every step, or their rule is unknown.
+/// True for large scenes with methods whose rule is unknown or implicit (stable at every step).
 bool is_dear(const Method& method, const Scene& scene) {
   const Stepper* rule = stepper_of(method);
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// True if both rules or neither are symplectic, and both or neither have a stable step without drag.
 bool same_stability_class(const Stepper& a, const Stepper& b) {
   return a.symplectic == b.symplectic && (a.limit(1, 0) > 0) == (b.limit(1, 0) > 0);
 }
 
 bool has_linear_limit(const Stepper& rule) { return std::isfinite(rule.limit(1, 0)); }
 
-/// For scenes without a state of rest: shows whether a run follows the motion below a limit and loses it above, by
-/// errors relative to the truth at the nearest steps that divide the sampling interval.
+/// For scenes without a state of rest: errors at the nearest steps that divide the sampling interval show whether a run
+/// follows the true motion below a limit and loses it above.
 void add_errors_beside_limit(const Scene& scene, const Method& method, LimitRow& row) {
   const Run whole = default_run(scene);
   const auto truth = truth_of(scene, whole);

@@ -145,8 +145,6 @@ Table read_csv(const std::filesystem::path& file) {
   return table;
 }
 
-// Functions of typed.h.
-
 std::vector<Column> columns_of(std::span<const TypedColumn> typed) {
   std::vector<Column> columns;
   for (const TypedColumn& c : typed) columns.push_back({std::string(c.name), std::string(c.unit)});

@@ -50,8 +50,7 @@ LockPatience::LockPatience(double seconds) {
 
 namespace {
 
-/// Describes the process that holds the lock as "process 12 (crosscheck report, begun at 12:03:04)". Returns "another
-/// process" if none is visible, for example because it runs in another container.
+/// "process 12 (crosscheck report, begun at 12:03:04)"; "another process" if none is visible, as in another container.
 std::string holder_of(int handle) {
   constexpr auto unknown = "another process";
   struct stat file {};

@@ -28,8 +28,7 @@ bool set_date(std::string& text) {
   return true;
 }
 
-/// Returns the unpacked text of a PDF's stream, or an empty string if the stream is not zlib data or its text is longer
-/// than 1 MB.
+/// Returns an empty string if the stream is not zlib data or unpacks to more than 1 MB.
 std::string unpacked(const std::string& packed) {
   std::string text(1 << 20, ' ');
   uLongf size = text.size();
@@ -44,8 +43,7 @@ std::string packed(const std::string& text) {
   return bytes.substr(0, size);
 }
 
-/// Sets the date in the last object stream (PDF 1.7, sections 7.5.7 and 7.5.8), and updates the stream's length and the
-/// table of offsets. Leaves files without such a date unchanged.
+/// Sets the date in the last object stream (PDF 1.7, 7.5.7 and 7.5.8), and updates its length and the offsets.
 void set_packed_date(std::string& pdf) {
   static const std::regex tail(
       R"(\nendstream\nendobj\n(\d+) 0 obj\n +\d+\nendobj\n(\d+) 0 obj\n(<< /Type /XRef\n +/Length )\d+([^>]*)"
@@ -85,8 +83,7 @@ void erase_pdf_date(const std::filesystem::path& pdf) {
 
 namespace {
 
-/// Describes the fault of a file that gnuplot wrote. Returns an empty string for a complete file, which ends with the
-/// last bytes of its format.
+/// Returns an empty string for a complete file, which ends with the last bytes of its format.
 std::string wrong_with_drawn_file(const std::filesystem::path& file) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> formats{
       {{"\x89PNG", "IEND\xAE\x42\x60\x82"}, {"%PDF-", "%%EOF"}, {"<?xml", "</svg>"}}};

@@ -18,8 +18,7 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// Size (m) of a scene's motion up to the end of its comparison window: from the truth if there is one, otherwise from
-/// the scene's own method and step. Throws InputError if neither is available.
+/// Size (m) of the motion in the comparison window: of the truth or else of the scene's own run. Throws InputError.
 double motion_of_scene(const Scene& scene) {
   if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
   Recorder recorder;
@@ -262,8 +261,7 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // finish() removes an earlier advice.toml, which could be mistaken for the new advice; keep that file if it is the
-    // scene of this command
+    // finish() removes an earlier advice.toml; keep it if it is the scene of this command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);

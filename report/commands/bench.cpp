@@ -42,8 +42,7 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// For the shipped scenes, keeps only the line with the smallest gain of the engine's own kernel. Uses the last line of
-/// each scene.
+/// Uses the last line of each scene; of the shipped scenes, only the one with the smallest gain of mysim's kernel.
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)

@@ -98,8 +98,7 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// Draws the run of each unknown break, at the time of the break or, if that is unknown, at the end. Omits breaks that
-/// cannot be drawn.
+/// Draws each unknown break at its time, or at the end if the time is unknown. Omits those that cannot be drawn.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {

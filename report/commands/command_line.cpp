@@ -57,8 +57,7 @@ bool is_method(const std::string& word) {
   }
 }
 
-/// Throws InputError with the command line that was probably meant if a method or number is given where a scene is
-/// expected, and the command has an option for it.
+/// Throws InputError with the probable command line if a method or number is given in place of a scene.
 void require_words_in_place(const CLI::App& command, std::span<const std::string> words) {
   const auto named = [&](std::initializer_list<const char*> names) -> std::string {
     for (const char* name : names)

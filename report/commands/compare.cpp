@@ -103,8 +103,7 @@ int compare_command(const CompareOptions& options) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
     const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
-    // write a table after each run, so that an interrupted comparison keeps its finished runs; their differences are
-    // computed after the last one
+    // write a table after each run, so that an interrupted comparison keeps its finished runs
     add(so_far, EngineRow{scene.name, method.name, out.verdict, out.reason, out.end, out.step, out.steps,
                           out.evaluations, out.degenerate_springs});
     write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));

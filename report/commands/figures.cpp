@@ -91,8 +91,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   return work;
 }
 
-/// Draws pictures of scenes. A scene of experiment `engines` is drawn in the same process from the same runs, which
-/// saves a third of a picture's work.
+/// Draws scenes. A scene of experiment `engines` is drawn from the same runs, which saves a third of the work.
 class Pictures {
  public:
   Pictures(const std::vector<Scene>& scenes, const FiguresOptions& options, const FigureSize& size,
@@ -117,8 +116,7 @@ class Pictures {
     return points;
   }
 
-  /// Draws each scene of `engines` when its point is done. A picture that fails there adds no row: it is drawn again,
-  /// and its failure reported, with the other figures.
+  /// Draws each scene of `engines` when its point is done. A picture that fails is drawn again with the other figures.
   void draw_with_engines(std::vector<Point>& points, const Store& store) const {
     const std::vector<Point> own = this->points();
     for (Point& point : points)

@@ -18,8 +18,7 @@ std::string kinds_of(const std::string& command, const std::string& word) {
   return "";
 }
 
-/// All commands in the format of command_table(), with the kinds of names that complete their words. Describes the
-/// grader's commands fully, although they are registered by name only.
+/// All commands in the format of command_table(), including the grader's, which are registered by name only.
 Json all_commands(const CLI::App& app) {
   Json commands = Json::parse(command_table(app));
   const Json graders = Json::parse(grader_table());
@@ -33,7 +32,6 @@ Json all_commands(const CLI::App& app) {
   return commands;
 }
 
-/// Escapes all texts for troff.
 void escape_for_troff(Json& data) {
   if (!data.is_string()) {
     for (Json& item : data) escape_for_troff(item);

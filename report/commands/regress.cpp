@@ -46,7 +46,7 @@ int print_result(const RegressionResult& result, const std::filesystem::path& ou
 
 using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // (drawing, file to keep)
 
-/// Writes a page of the changes. Returns, for each changed scene, the figure to store next to its baseline.
+/// Returns, for each changed scene, the figure to store next to its baseline.
 Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
   RegressionResult changes;

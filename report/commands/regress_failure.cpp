@@ -62,7 +62,7 @@ std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// Reads the old run from a baseline, which stores at most eight times.
+/// The baseline stores at most eight times.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
@@ -117,7 +117,6 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
   return e;
 }
 
-/// Sentence with the time and kind of the divergence.
 std::string describe_divergence(const FailureDetails& e) {
   if (e.first_divergence) {
     const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),

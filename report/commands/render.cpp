@@ -35,7 +35,7 @@ Shot shot_of(const RenderOptions& options, const Scene& scene) {
   return shot;
 }
 
-/// Results of the methods on a scene. Methods without a result are omitted, and printed with the reason.
+/// Omits methods without a result, and prints the reason.
 std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                      Progress& progress) {
   std::vector<MethodResult> answers;

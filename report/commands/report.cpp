@@ -58,8 +58,7 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
-/// For --engines all: adds the engines that are built, and prints how to build the others. The default methods are then
-/// rules that other engines implement; the default scenes are small.
+/// For --engines all: adds the built engines, and prints how to build the others. Defaults: shared rules, small scenes.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
   if (options.methods.empty()) {
@@ -160,7 +159,6 @@ int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder,
   return report.page.problems.empty() && report.agree ? 0 : 1;
 }
 
-/// Rebuilds the page of an existing report, in place or into another folder, without running anything.
 int remake_command(const fs::path& from, const ReportOptions& options) {
   ReportData data = read_report(from);
   const fs::path kept = fs::weakly_canonical(from);

@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// Curve of a scene's positive values in a column, against the number of particles minus `cells_less`.
+/// `cells_less` is subtracted from the number of particles.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};
@@ -56,7 +56,6 @@ bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
 }
 
-/// Describes for each scene how the motion converges to that of the finest grid.
 std::string motion_sentence(const std::vector<GridRow>& grids, const TableSet& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others, unbounded;
   size_t fewest = 4;  // 4, because fewer points give only a hint of the power

@@ -164,7 +164,6 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   return json;
 }
 
-/// The looks and data of the curves and crosses that share a name.
 Json parts_json(const Figure& f, const std::vector<NamedCurves>& named,
                 const std::set<std::pair<double, double>>& scaled) {
   const Fineness x(f.x, f.curves, &std::pair<double, double>::first),

@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// Depth in %; round-off on the surface counts as zero.
+/// Depth in %. Round-off on the surface counts as zero.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
 /// Penetration by method and time step; nullopt if nothing penetrates.

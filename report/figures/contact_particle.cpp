@@ -124,8 +124,7 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
                    "speed"_a = rows.back().speed_by_theory, "commit"_a = commit);
 }
 
-/// Error against step of a slide with friction that leaves the ball, with and without +events. Returns nullopt unless a
-/// method ran both ways.
+/// Error against step, with and without +events, of a slide with friction that leaves the ball. Needs both runs.
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;

@@ -130,8 +130,7 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
   return true;
 }
 
-/// Places the remaining labels. Returns false if many curves end at the right, no free space was found for a label of
-/// one of them, and there is no column of names yet.
+/// Returns false if a label of a curve that ends at the right has no space, and there is no column of names yet.
 bool CurvePlot::place_names() {
   const bool column = column_ > 0;
   std::vector<size_t> missing, order;
@@ -287,8 +286,7 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// Explains the marks above the frame. If there is only one kind of cross, explains it next to the last cross of the
-/// top row, if there is space.
+/// Explains the marks above the frame or, given space, a single kind of cross next to the top row's last cross.
 void CurvePlot::place_kinds() {
   for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
     remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});

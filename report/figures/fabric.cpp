@@ -30,8 +30,7 @@ double order_at_end(const Curve& curve) {
   return std::log(before / after) / std::log(fine / coarse);
 }
 
-/// True for the lightest, a middle and the heaviest load, and for the largest load at the tip. Curves of other loads
-/// would coincide with these.
+/// True for the lightest, a middle and the heaviest load, and the largest load at the tip. Others would coincide.
 bool is_drawn(const CantileverRow& row) {
   return row.tip_load > 0 ? row.tip_load == 5 : row.gamma == 0.1 || row.gamma == 5 || row.gamma == 50;
 }

@@ -29,7 +29,7 @@ struct MapGrid {
   double left, right, bottom, top;  // edges of the cells
 };
 
-/// Cells of a panel. Panels may have different cells over the same axes.
+/// Panels may have different cells over the same axes.
 MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {
@@ -77,7 +77,6 @@ Table data_of(const HeatMap& map) {
   return table;
 }
 
-/// Selects the rows of one panel and one kind.
 std::string rows_of(const HeatMap& map, const std::string& panel, const std::string& what) {
   return fmt::format("{} using (strcol(1) eq {} && strcol(2) eq {} ? $3 : NaN):4", single_quoted(map.name + ".csv"),
                      single_quoted(panel), single_quoted(what));

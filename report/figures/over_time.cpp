@@ -15,7 +15,7 @@ namespace {
 using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
                                     const Table& table);
 
-/// Makes the charts of all scenes that have a table whose name ends with `ending`.
+/// Charts of all scenes that have a table whose name ends with `ending`.
 std::vector<Chart> of_all_scenes(const ChartInput& input, const char* ending, Make make) {
   std::vector<Chart> charts;
   for (size_t i = 0; i < input.scenes.size(); ++i) {
@@ -184,8 +184,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
-    // omit the sticky sphere: it stops all particles in contact, so that its losses would dwarf those of the other
-    // methods
+    // omit the sticky sphere: it stops all particles in contact, and its losses would dwarf all others
     if (!m.ok() || m.method.ends_with("+sticky")) {
       left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", without_folders(m.method), m.failure(), m.end));

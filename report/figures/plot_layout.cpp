@@ -186,7 +186,6 @@ constexpr double sample_width = 26, gap = 14;
 
 double sample_of(const KeyEntry& entry) { return entry.kind == KeyEntry::Kind::line ? sample_width : 12; }
 
-/// Number of columns, as many as fit side by side.
 size_t columns_of(const std::vector<KeyEntry>& entries, double wide) {
   double widest = 1;
   for (const KeyEntry& e : entries) widest = std::max(widest, sample_of(e) + 5 + width_of(e.text) + gap);

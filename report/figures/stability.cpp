@@ -18,7 +18,6 @@
 namespace crosscheck {
 namespace {
 
-/// Joins methods whose rows are equal.
 void join_equal_rows(PageTable& page) {
   std::vector<std::vector<std::string>> joined_rows;
   for (std::vector<std::string>& row : page.rows) {
@@ -123,8 +122,7 @@ std::string energy_text(double energy) {
                      : fmt::format("{:.0f} {}", 10 * std::round(value / 10), unit);
 }
 
-/// The last steps of a run above its stability limit, as a curve and in pictures, on the preferred scene or else the
-/// first one that has such a run.
+/// The last steps of a run above its stability limit, on the preferred scene or the first one with such a run.
 std::optional<Chart> failure_chart(const ChartInput& input, const std::string& preferred) {
   std::vector<FailureRow> rows = rows_of<FailureRow>(input.result);
   // consider only scenes that fail slowly enough to be visible

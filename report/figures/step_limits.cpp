@@ -75,7 +75,6 @@ std::string predicted_text(const LimitRow& row) {
 
 namespace {
 
-/// Results of one method over all scenes.
 struct Gathered {
   StepLimits::Row row;
   std::string without;                   // a scene without a stable step

@@ -92,8 +92,7 @@ constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
 
-/// "4 iterations of pbd". The number comes first because a title that begins with a method would be shortened to the
-/// method's name.
+/// The number comes first because a title that begins with a method would be shortened to its name.
 std::string curve_title(const EffectiveStiffnessRow& row) {
   return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }

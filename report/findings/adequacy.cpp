@@ -9,8 +9,7 @@
 namespace crosscheck {
 namespace {
 
-/// A scene's smallest adequate model at one tolerance; nullopt if a smaller model might be adequate for other initial
-/// states.
+/// Returns nullopt if a smaller model might be adequate for other initial states.
 std::optional<Finding> finding_of(const LeastModelRow& least, const std::string& until) {
   if (least.left_out.empty() && !least.holds) return std::nullopt;
   const auto unseen = {least.unseen_error_1, least.unseen_error_2, least.unseen_error_3};

@@ -44,7 +44,6 @@ std::string answers_of_chapter(std::string_view chapter, const Findings& finding
 
 namespace {
 
-/// Largest value so far, and its scene.
 struct Largest {
   double value = -1;
   std::string where;
@@ -88,8 +87,7 @@ Findings difference_answer(std::span<const SceneData> data) {
   return {};
 }
 
-/// Compares another engine's method with mysim's representative at the same step, on scenes without contact and without
-/// force laws that differ between the engines.
+/// Another engine's method and mysim's representative at the same step, without contact and differing force laws.
 struct EngineApart {
   std::string method;
   Largest apart = {};

@@ -28,8 +28,7 @@ Findings cone_findings(const Facts& facts) {
   return out;
 }
 
-/// Errors of mysim's representative on planes at the usual step; for all of mysim's methods, errors of a particle that
-/// comes to rest on a plane.
+/// Errors on planes: of mysim's representative at the usual step, and of its methods for a particle coming to rest.
 Findings plane_findings(const Facts& facts) {
   const auto rows = rows_of<PlaneProbeRow>(facts.rows);
   if (rows.empty()) return {};

@@ -50,8 +50,7 @@ void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   out.insert(out.end(), exceptions.begin(), exceptions.end());
 }
 
-/// Reports failed runs on the first undamped scene, for rules that are not symplectic: position-based, never stable and
-/// implicit ones, and user programs.
+/// Failed runs of rules that are not symplectic, and of user programs, on the first undamped scene.
 void drift(const std::vector<EnergyRow>& table, Findings& out) {
   std::vector<std::string> shown{subject_method(never_stable_undamped), subject_method(is_implicit)};
   for (const MethodFamily* peer : default_peers()) shown.push_back(position_based(*peer));
@@ -77,8 +76,7 @@ std::string off_text(double taken, double in_truth, double bar) {
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// Compares the energy taken by contact with the truth's: for representative methods of the engines, and for mysim's
-/// method with the largest deviation.
+/// Compares the energy taken by contact with the truth's, for representatives and mysim's method that deviates most.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;
@@ -122,7 +120,6 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Compares numerical damping with its closed form.
 void damping(const std::vector<DampingRow>& table, Findings& out) {
   Findings all;
   for (const DampingRow& row : table) {

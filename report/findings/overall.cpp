@@ -12,8 +12,7 @@
 
 namespace crosscheck {
 
-/// Methods that failed on scenes where others did not, programs without a result, and scenes on which all methods
-/// failed.
+/// Methods that failed where others did not, programs without a result, and scenes on which all methods failed.
 Findings failure_findings(const Facts& facts) {
   std::map<std::string, std::vector<std::string>> failed, crashed;
   std::vector<std::string> all;

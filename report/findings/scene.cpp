@@ -36,8 +36,7 @@ void agreement(const Scene& scene, const SceneData& data, Findings& out) {
     if (b.ok() && b.difference && may_move_alike(b.method)) out.push_back(agreement_with(b, scene, data));
 }
 
-/// Names the cheapest of the methods whose error is below the truth's error bar or at most 5 % above the smallest
-/// error.
+/// The cheapest method with an error below the truth's error bar, or at most 5 % above the smallest error.
 void nearest(const Scene& scene, const SceneData& data, Findings& out) {
   std::vector<MethodData> tied = data.methods;
   std::erase_if(tied, [](const MethodData& m) { return !m.judged(); });

@@ -62,7 +62,6 @@ void limits_by_truth(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Methods that fail at every step, as predicted by theory.
 void without_stable_step(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<std::string>> scenes_of;  // by method
   for (const LimitRow& row : rows_of<LimitRow>(rows))

@@ -83,8 +83,7 @@ struct StepLimitComparison {
   std::string how;            // for `apart`
 };
 
-/// Returns nullopt if there is no theory, the method does not support the scene, or the predicted limit is beyond the
-/// steps tried.
+/// Returns nullopt without theory, if the method refuses the scene, or if the predicted limit exceeds the steps tried.
 std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
   using enum StepLimitComparison::Kind;
   const PredictionKind theory = row.prediction;

@@ -96,7 +96,6 @@ EXPORT(text_buffer) char* text_buffer(int bytes) {
   return instance().text.data();
 }
 
-/// Table of steppers as JSON.
 EXPORT(steppers) const char* steppers_json() {
   std::string out;
   for (const Stepper& s : steppers())
@@ -108,7 +107,6 @@ EXPORT(steppers) const char* steppers_json() {
 
 EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instance().text), "lab.toml", "lab")); }
 
-/// Scalar properties as JSON.
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
   std::string spheres, planes, camera = "null";
@@ -161,7 +159,6 @@ EXPORT(start) void start(double step, double tolerance, double duration, int kee
 EXPORT(advance) int advance(double t, int most) { return run().advance(t, most); }
 EXPORT(time) double time() { return run().time(); }
 
-/// Outcome so far as JSON.
 EXPORT(outcome) const char* outcome_json() {
   const Outcome out = run().outcome();
   return hand_out(fmt::format(R"({{"verdict":{},"reason":{},"step":{},"steps":{}}})", quoted(name_of(out.verdict)),
@@ -181,8 +178,8 @@ EXPORT(centres) const double* centres(double t) {
   return hand_out(std::move(places));
 }
 
-/// Kinetic, elastic and gravitational energy; losses to drag, dashpots and contact; work of wind and pins; balance; all
-/// in J. Null for first-order scenes.
+/// Kinetic, elastic, gravitational; losses to drag, dashpots, contact; work of wind, pins; balance (J). Null for
+/// first-order scenes.
 EXPORT(energies) const double* energies() {
   const auto row = run().energies();
   if (!row) return nullptr;

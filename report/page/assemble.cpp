@@ -193,7 +193,7 @@ class Assembly {
     return images;
   }
 
-  /// Draws figures that open a chapter, for paper and for readers without scripts, and renders missing pictures.
+  /// Draws figures that open a chapter, for paper and readers without scripts, and missing pictures.
   void draw(const Workers& workers) {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
@@ -223,7 +223,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// Draws the still picture of the first screen: the runs that move there, and a separate picture of the truth.
+  /// Draws the runs of the first screen, and a separate picture of the truth.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;

@@ -127,7 +127,7 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
-/// Data of all folds: findings, relations, entries. The least important entries share the last fold.
+/// The last fold contains the least important entries.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   Findings said;

@@ -138,8 +138,7 @@ Json words_data(const PageContent& c, Folds& folds) {
 
 std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
 
-/// Data for scripts. Charts that are visible when the page opens, or in print, are stored as plain text; others are
-/// packed.
+/// Stores charts that are visible at the start or in print as plain text, and packs the others.
 Json scripts_data(const PageContent& c, const Folds& folds) {
   Json open = Json::object(), folded = c.charts;
   for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);

@@ -74,8 +74,7 @@ class Chooser {
       add({method + " own", method, is_adaptive(method) ? "own tolerance" : step_text(m->step),
            m->error ? m->error : m->contact_difference, cost_at(*m), beside, base_, beside ? difference_of(*m) : ""});
   }
-  /// "0.81 mm until 480 ms, 2.8 mm at the end"; empty unless the method is another engine's and has the same rule as
-  /// mysim's representative.
+  /// "0.81 mm until 480 ms, 2.8 mm at the end", if another engine's method has the rule of mysim's representative.
   std::string difference_of(const MethodData& m) const {
     if (!is_another_engine(m.method) || !m.same_rule.value_or(false) || !m.difference) return "";
     std::string text = nice_length(*m.difference);

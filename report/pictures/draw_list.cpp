@@ -58,8 +58,8 @@ std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   return normal;
 }
 
-/// A point of the curved surface through the corners (Phong tessellation, Boubekeur and Alexa 2008): half way from the
-/// flat triangle to the corners' tangent planes, which follows a ball to second order.
+/// A point of the surface half way from the triangle to the corners' tangent planes (Phong tessellation, Boubekeur and
+/// Alexa 2008), which follows a ball to second order.
 ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector3f& part) {
   ClothVertex c{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,7 @@ void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& 
     }
 }
 
-/// Adds the cloth to the list. Returns the threads that are not an edge of a triangle.
+/// Returns the threads that are not an edge of a triangle.
 std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));

@@ -40,7 +40,6 @@ void attach_depth(int width, int height) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, id);
 }
 
-/// Makes a texture, attached to a new framebuffer.
 Target new_target(GLenum attachment, GLint format, int width, int height, GLenum kind, GLint filter) {
   Target target;
   glGenTextures(1, &target.texture);

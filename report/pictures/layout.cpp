@@ -55,7 +55,6 @@ int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
   return int(most);
 }
 
-/// Height of the lines, of which the first has height `first`.
 double height_of(int lines, double first, double font) { return lines ? first + (lines - 1) * line_height * font : 0; }
 
 /// Largest font size up to `wanted` with which the text is at most `room` wide.
@@ -110,7 +109,7 @@ bool titles_fit(const std::vector<Panel>& panels, double room) {
   });
 }
 
-/// Picture height (pixels) at which panels have this aspect.
+/// Picture height (pixels) for this aspect of the panels.
 int height_for(const Picture& picture, double aspect) {
   const Layout layout = columns_and_fonts(picture);
   double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;

@@ -32,7 +32,6 @@ void check(cairo_status_t status) {
     throw std::runtime_error(fmt::format("Cairo: {}", cairo_status_to_string(status)));
 }
 
-/// Converts pixels to Cairo's format.
 Owned<cairo_surface_t> surface_of(const Image& image) {
   Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
   check(cairo_surface_status(surface.get()));
@@ -62,8 +61,8 @@ class Page {
     cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
     return extents.x_advance / 100;
   }
-  /// Writes a text. The centre of the first line is at height y; further lines are below. Lines begin at x if `before`
-  /// is 0, and are centred there if it is 0.5. `size` is in pixels.
+  /// The centre of the first line is at height y. Lines begin at x if `before` is 0, and are centred there if it is
+  /// 0.5. `size` is in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
     for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);
@@ -87,7 +86,6 @@ class Page {
     cairo_move_to(cairo_.get(), x0, y0), cairo_line_to(cairo_.get(), x1, y1);
     cairo_stroke(cairo_.get());
   }
-  /// A box with the colours of a scale from left to right.
   void gradient(double left, double top, double width, double height) {
     const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
     for (int i = 0; i <= 24; ++i) {  // four pieces per interval of the colour scale

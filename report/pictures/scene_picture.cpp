@@ -48,7 +48,7 @@ double round_up(double value) {
   return value;
 }
 
-/// The body at a frame; in mode difference, it is coloured by the distance from `base`.
+/// In mode difference, the distance from `base` determines the colours.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -108,7 +108,6 @@ std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Ve
   return bodies;
 }
 
-/// Obstacles at time t (s).
 std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   std::vector<render::Ball> balls;
   if (const auto* spheres = scene.model.find<Spheres>())
@@ -173,14 +172,12 @@ bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
   return scene.triangles.empty() && depth < 1e-9;
 }
 
-/// Direction towards the eye. Of the scene's camera only the direction is used, because the distance must suit panels
-/// of every shape.
+/// Uses only the direction of the scene's camera, because the distance must suit panels of every shape.
 Vec3 towards_eye(const Scene& scene, bool flat) {
   if (scene.camera) return scene.camera->eye - scene.camera->target;
   return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
 }
 
-/// A camera that sees everything in the panels.
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
   const bool flat = is_flat(scene, shown);
@@ -227,8 +224,7 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// The motions that view and scale must accommodate. Runs that blew up are excluded, because next to them other runs
-/// would be too small and too pale.
+/// Motions that determine view and scale. Excludes blow-ups, next to which others would be too small and too pale.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;

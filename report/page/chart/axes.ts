@@ -6,8 +6,6 @@ import {scaleLinear, scaleLog} from 'd3-scale';
 import {Anchor, Element, element, label, lineHeight, rounded, widthOf, wrapped} from './sheet';
 import {AxisSpec} from './spec';
 
-// Numbers.
-
 const digits = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 const superscript = (power: number) =>
     (power < 0 ? '⁻' : '') + String(Math.abs(power)).replace(/\d/g, digit => digits[Number(digit)]);
@@ -31,8 +29,6 @@ export function nice(value: number, unit = ''): string {
   const scaled = value / factor, plain = scaled === 0 || (Math.abs(scaled) >= 1e-4 && Math.abs(scaled) < 1e5);
   return `${plain ? signed(short(scaled)) : inPowers(scaled)}${unit && ` ${prefix}${unit}`}`;
 }
-
-// Scales.
 
 export interface Tick {
   place: number;  // px
@@ -101,7 +97,6 @@ export function axisOf(spec: AxisSpec, from: number, to: number, apart: number):
   };
 }
 
-/** Width of the tick labels of a vertical axis, px. */
 export const widthOfTicks = (axis: Axis) => Math.max(0, ...axis.ticks.map(tick => widthOf(tick.text)));
 
 

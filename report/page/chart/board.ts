@@ -4,7 +4,7 @@ import {Frame} from './axes';
 import {Box, letters, lineHeight, widthOf} from './sheet';
 import {Pair} from './spec';
 
-/** Points along a path, at distances of at most `apart` px. */
+/** Points at distances of at most `apart` px. */
 export function dense(path: readonly Pair[], apart = 6): Pair[] {
   const points: Pair[] = path.slice(0, 1);
   for (let i = 1; i < path.length; ++i) {
@@ -14,7 +14,6 @@ export function dense(path: readonly Pair[], apart = 6): Pair[] {
   return points;
 }
 
-/** Distance of a box from the nearest of the points, px. */
 export function distance(box: Box, points: readonly Pair[]): number {
   let least = Infinity;
   for (const [x, y] of points)
@@ -156,7 +155,6 @@ export function pushedApart(wanted: readonly number[], low: number, high: number
 export const isInside = ([x, y]: Pair, {left, right, top, bottom}: Frame) =>
     x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1;
 
-/** Sections of a path inside a frame. */
 export function clipped(path: readonly Pair[], {left, right, top, bottom}: Frame): Pair[][] {
   const runs: Pair[][] = path.length === 1 && isInside(path[0], {left, right, top, bottom}) ? [[path[0]]] : [];
   let open = false;

@@ -50,7 +50,6 @@ function measureFont() {
 
 const drawnWidths = new WeakMap<HTMLElement, number>();
 
-/** Draws a chart at the width of its box. */
 export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   const width = Math.max(300, Math.round(box.clientWidth || 600)), before = drawnWidths.get(box);
   if (before === width) return;

@@ -145,7 +145,7 @@ class CurvesLayout {
     };
   }
 
-  /** Draws the axes. Returns the y below the horizontal axis and its title. */
+  /** Returns the y below the horizontal axis and its title. */
   private drawAxes(): number {
     const {chart, frame, elements, width} = this, {left, right, top, bottom} = frame;
     if (chart.window !== undefined) {

@@ -15,7 +15,7 @@ function spanOf(values: readonly number[]): [number, number, number] {
 }
 
 export function map(chart: MapSpec, width: number): Sheet {
-  // panels of a single colour are described by a sentence instead
+  // a sentence describes panels of a single colour
   const plain = chart.panels.filter(panel => new Set(panel.cells.map(c => c[2])).size === 1), {kinds} = chart;
   const panels =
       plain.length < chart.panels.length ? chart.panels.filter(panel => !plain.includes(panel)) : chart.panels;

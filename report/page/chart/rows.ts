@@ -25,7 +25,7 @@ function rowsOf(
   return {elements, axis, frame, below: titleBelow(elements, axis.title, frame, frame.bottom + 37, width)};
 }
 
-/** A name to the left of its line; long names take two lines. */
+/** Long names take two lines. */
 function nameOf({name}: Named, left: number, y: number): Element[] {
   const lines = wrapped(name, left - 10);
   return lines.map((line, k) => label(line, left - 8, y + 4 + lineHeight * (k - (lines.length - 1) / 2), 'end'));
@@ -73,7 +73,6 @@ export function bars(chart: BarsSpec, width: number): Sheet {
   return sheetOf(width, below, [...above, ...elements]);
 }
 
-/** Chart with a mark and an interval for each name in each series. */
 export function dots(chart: DotsSpec, width: number, colours: Colours): Sheet {
   const ends = chart.series.flatMap(s => s.dots.flatMap(dot => (dot ? [dot[1], dot[2]] : [])));
   const all = [...ends, ...(chart.guides ?? []).map(guide => guide.at)];

@@ -61,7 +61,6 @@ export const font: Record<'regular'|'bold', number> = {
   bold: 1.07
 };
 
-/** Width of a text in px. */
 export function widthOf(text: string, bold = false, size = letters): number {
   let sum = 0;
   for (const sign of text) {
@@ -166,7 +165,7 @@ export interface KeyEntry {
   method?: string;
 }
 
-/** Draws a wrapped key; the centre of its first line is at `top` + 8. Returns the key's height. */
+/** The centre of the first line is at `top` + 8. Returns the key's height. */
 export function key(
     elements: Element[], entries: readonly KeyEntry[], left: number, top: number, width: number): number {
   if (!entries.length) return 0;

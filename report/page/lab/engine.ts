@@ -11,7 +11,6 @@ export class LabError extends Error {
   constructor(readonly kind: FaultKind, message: string) { super(message); }
 }
 
-/** Row of the engine's table of steppers. */
 export interface Stepper {
   name: string;
   evaluations: number;  // force evaluations per step
@@ -107,7 +106,6 @@ class Instance {
     this.calls._initialize();
   }
 
-  /** Reads a zero-terminated text. */
   text(at: number) {
     const bytes = new Uint8Array(this.calls.memory.buffer, at);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
@@ -212,10 +210,7 @@ export class Simulation {
     return Number.isNaN(limit) ? null : limit;
   }
 
-  /**
-   * Starts at the initial state. Without `observe`, losses and work are not accumulated, which is faster for large
-   * scenes. Throws LabError if the rule does not support the scene.
-   */
+  /** Without `observe`, does not accumulate losses and work. Throws LabError if the rule refuses the scene. */
   start(
       {stepper, options = '', step = this.scene.step, tolerance = 1e-6, duration = this.scene.duration, observe = true}:
           RunSettings) {

@@ -7,7 +7,6 @@ import {Energies, Simulation} from './engine';
 import {msText} from './knobs';
 import {Changes, MethodSpec} from './scene_text';
 
-/** Current state of a run. */
 interface RunReading {
   method: string;
   step: number;   // s
@@ -101,7 +100,6 @@ export interface Mode {
 }
 
 
-/** Distance of the first particle from the origin, m. */
 const radiusOf = (x: ArrayLike<number>) => Math.hypot(x[0], x[1], x[2]);
 
 export const centreOf = (x: Places) => [0, 1, 2].map(k => {
@@ -156,7 +154,6 @@ const digits = (value: number, count = 3) => (value < 0 ? '−' : '') + Number(M
 const degrees = (value: number) => String(Math.round(value));
 
 
-/** True if a run of this method (default: any) reached its end. */
 const finished = (run: RunReading|undefined, method = run?.method) =>
     Boolean(run?.ended && !run.failed && run.method === method);
 const holds = (run: RunReading, time: number) => !run.failed && run.t >= time;
@@ -242,7 +239,6 @@ function finerCloth(toml: string) {
       .replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
 }
 
-/** The growing mode of run A. */
 function growingMode({run: {sim}}: Reading): Mode {
   const {mode, places} = sim.growingMode();
   return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...sim.scene.rests)};

@@ -268,7 +268,6 @@ class LabGuide extends HTMLElement {
     return next ? this.begin(next, 0) : this.showSandbox();
   }
 
-  /** The next experiment; undefined after the last one. */
   private get following(): GuideExperiment|undefined {
     const all = experimentsHere();
     return all[all.findIndex(each => each === this.experiment) + 1];

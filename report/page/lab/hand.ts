@@ -172,7 +172,6 @@ export class Hand {
     this.act.choose(particle);
   }
 
-  /** Resets the hand for a new scene. */
   forget() { this.chosen = this.held = this.grabbed = null; }
 
   private key(event: KeyboardEvent) {
@@ -206,7 +205,6 @@ export class Hand {
     if (count) this.choose(this.chosen === null ? (by > 0 ? 0 : count - 1) : (this.chosen + by + count) % count);
   }
 
-  /** Moves the chosen particle a little. */
   private nudge(across: number, upward: number, nearer: number) {
     const [run] = this.act.runs(), stage = this.act.stage();
     if (this.chosen === null || !run?.places || !stage) return;

@@ -187,7 +187,6 @@ export class SceneKnobs {
   }
 }
 
-/** A time in ms, the unit of the step's slider. */
 export const msText = (s: number) => `${Number((1000 * s).toPrecision(3))} ms`;
 
 export class MethodKnobs {

@@ -432,7 +432,6 @@ export class LiveLab extends LabPicture {
     return this.byHand ? this.runs[0].sim.sceneText() : withMethod(this.toml, this.methods?.[0] ?? {method: ''});
   }
 
-  /** True if the scene is unchanged. */
   private get isShipped() { return !this.byHand && this.toml === sceneText(this.sceneName); }
 
   private dragged(event: DragEvent) {
@@ -468,7 +467,6 @@ export class LiveLab extends LabPicture {
     this.draw();
   }
 
-  /** Applies a change by hand to every run. */
   private changeRuns(act: (sim: Simulation) => void) {
     for (const run of this.runs) {
       if (run.refusal || run.failed) continue;
@@ -531,7 +529,6 @@ export class LiveLab extends LabPicture {
   }
 
 
-  /** Updates all texts to the chosen language. */
   private relabel() {
     const {state, missing} = this.dataset, {view} = this;
     this.lang = labLanguage;
@@ -551,7 +548,6 @@ export class LiveLab extends LabPicture {
     this.showState();
   }
 
-  /** Shows what depends on scene and methods. */
   private showState() {
     const {view, hand: {chosen}, runs: [a]} = this;
     if (!view || !this.methods) return;

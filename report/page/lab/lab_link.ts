@@ -57,7 +57,7 @@ export function saveText(name: string, text: string) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** Copies a text. Returns false if the browser does not allow it. */
+/** Returns false if the browser does not allow it. */
 export async function copyText(text: string) {
   try {
     await navigator.clipboard.writeText(text);

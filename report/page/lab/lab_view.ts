@@ -37,7 +37,6 @@ export interface LabLook {
   truth: boolean;
 }
 
-/** Functions that the controls call. */
 export interface LabActs {
   toggle(): void;
   step(): void;

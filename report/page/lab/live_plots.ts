@@ -39,7 +39,6 @@ export class LivePlots {
     this.choice.addEventListener('change', () => this.shown && this.show(...this.shown));
   }
 
-  /** Names the energies in the reader's language. */
   name() {
     const kind = this.choice.value || 'total';
     this.choice.setAttribute('aria-label', say('quantity'));

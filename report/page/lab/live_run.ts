@@ -43,7 +43,6 @@ function between(from: State, to: State, t: number, into: Float64Array) {
   return into;
 }
 
-/** RMS distance of the particles, m. */
 export function rmsDistance(a: Places, b: Places) {
   let sum = 0;
   for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;

@@ -112,7 +112,6 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(table);
   }
 
-  /** Updates the pins after a change by hand. */
   setPins(pins: number[]) {
     if (pins.join() === this.scene.pins.join()) return;
     this.scene.pins = pins;
@@ -146,7 +145,6 @@ export class LiveStage extends BaseStage<LivePanel> {
     return true;
   }
 
-  /** Sets the drawn views, one per panel. */
   show(views: LiveView[]) {
     const {tools, scene: {particles}} = this, cloth = this.triangles.length > 0;
     for (const {points, normals, way} of this.panels) this.dropTables(points, normals, way);
@@ -270,6 +268,5 @@ export class LiveStage extends BaseStage<LivePanel> {
   }
 }
 
-/** Distance of each particle from its position in `from`, m. */
 const apart = (places: Places, from: Places) =>
     Float32Array.from({length: places.length / 3}, (_, i) => norm(minus(placeOf(places, i), placeOf(from, i))));

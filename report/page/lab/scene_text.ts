@@ -106,7 +106,6 @@ export function changesBetween(from: string, to: string) {
   return withNumbers(from, changes) === to ? changes : null;
 }
 
-/** Sets the scene's own method, and its step or tolerance. */
 export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSpec) {
   const text = toml.replace(/^(\s*method\s*=\s*)"[^"]*"/m, (_, before) => `${before}"${method}"`);
   return tolerance ? text : withNumber(text, 'time.step', step);
@@ -160,7 +159,7 @@ export function withStart(toml: string, pins: Int32Array, {positions: x, velocit
   return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
-/** Removes a section, which ends before the next line with a section's name. */
+/** The section ends before the next line with a section's name. */
 export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')

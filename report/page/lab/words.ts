@@ -18,7 +18,6 @@ export function say(key: string, values: Record<string, unknown> = {}) {
   return words.replace(/\{(\w+)\}/g, (place, name) => (name in values ? String(values[name]) : place));
 }
 
-/** Translates the question of a shipped scene. */
 export function questionInLanguage(question: string) {
   const key = Object.keys(english).find(each => each.startsWith('question.') && labWords.en[each] === question);
   return key ? say(key) : question;

@@ -43,7 +43,6 @@ export const unitOf = (metres: number): [string, number] => {
   const units: [string, number][] = [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]];
   return units.find(([, size]) => metres >= size) ?? units[0];
 };
-/** A length in a suitable unit. */
 export const length = (metres: number) => {
   const [name, size] = metres > 0 ? unitOf(metres) : ['mm', 1e-3] as const, value = metres / size;
   return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
@@ -120,7 +119,6 @@ export interface Look {
   colour: string;
   springs: boolean;
 }
-/** Functions that the controls call. */
 export interface Acts {
   toggle: () => void;
   seek: (time: number) => void;  // s

@@ -205,7 +205,7 @@ export class Motion {
   }
 }
 
-/** Distances of particles (m) from differences of coordinates. */
+/** Distances (m) from differences of coordinates. */
 export const distances = (apart: Float32Array) => {
   const out = new Float32Array(apart.length / 3);
   for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(apart[3 * i], apart[3 * i + 1], apart[3 * i + 2]);

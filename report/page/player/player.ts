@@ -17,10 +17,7 @@ export const alive: MotionPlayer[] = [];
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 export const dark = matchMedia('(prefers-color-scheme: dark)');
 
-/**
- * True if this browser may be able to play. Checks features only, because starting WebGL takes long without a graphics
- * processor.
- */
+/** Checks features only, because starting WebGL takes long without a graphics processor. */
 export let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
 document.documentElement.classList.toggle('plays', plays);
 

@@ -63,7 +63,6 @@ export interface PanelPlace {
   wide: number;
   high: number;
 }
-/** A panel while it is drawn. */
 export interface PanelView<P> {
   panel: P;
   time: number;
@@ -130,7 +129,6 @@ export class BaseStage<P extends Panel> {
   /** Diagonal of the visible bounds, m. */
   get size() { return this.bounds.size; }
 
-  /** Releases the context. */
   release() { this.tools.gl.getExtension('WEBGL_lose_context')?.loseContext(); }
 
   protected dropTables(...tables: (Table|null)[]) {
@@ -249,7 +247,6 @@ export class BaseStage<P extends Panel> {
     };
   }
 
-  /** Draws cloth or springs, beads, pins, path and obstacles. */
   protected drawBodies(programs: BodyPrograms, view: PanelView<P>, light: Uniforms) {
     const {gl} = this.tools, {tools, scene, shapes} = this, {pixel} = view, lit = programs === this.programs;
     const all = this.uniformsOf(view, light), many = scene.particles > 60;
@@ -315,7 +312,6 @@ export interface View {
 type MotionPanel = Panel&View&{path: Table | null};
 
 export class Stage extends BaseStage<MotionPanel> {
-  /** Shows runs side by side. */
   show(views: View[]) {
     const {tools, scene} = this, cloth = this.triangles.length > 0, n = scene.particles, {times} = scene;
     for (const {points, normals, path} of this.panels) this.dropTables(points, normals, path);
@@ -335,7 +331,6 @@ export class Stage extends BaseStage<MotionPanel> {
     this.bounds = boundsOf(scene, this.panels.map(p => p.motion));
   }
 
-  /** Draws the panels, and returns their positions. */
   draw(shown: Shown): PanelPlace[] {
     const {time, colour} = shown;
     const prepare = (panel: MotionPanel) => {
