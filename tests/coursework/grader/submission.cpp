@@ -108,6 +108,7 @@ std::string with_includes(const std::string& text,
     if (const std::string to = lead(line.substr(at + 1, end - at - 1), in_brackets); !to.empty())
       line.replace(at, end + 1 - at, to);
   }
+  if (!out.empty() && text.back() != '\n') out.pop_back();
   return out;
 }
 

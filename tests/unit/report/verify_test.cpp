@@ -121,10 +121,10 @@ TEST(FindingRules, TextsAreFilledInWithTheUnitOfTheirQuantity) {
   const std::pair<const char*, const char*> written[] = {{"answer-contact", "differ by 5 mm until"},      // m
                                                          {"energy-failed", "after 5 ms ("},               // s
                                                          {"numerical-damping", "within 0.005 %."},        // %
-                                                         {"still-touches", "sliding at 5 mm/s."},         // m/s
+                                                         {"still-touches", "slides at 5 mm/s."},          // m/s
                                                          {"engines-damp", "a drag of 0.005 per second"},  // 1/s
                                                          {"leaving", "off by 0.005 degrees"},
-                                                         {"bend-power", "to the power 0.01 ± 0.00;"}};
+                                                         {"bend-power", "with the power 0.01 ± 0.00 of"}};
   for (const auto& [rule, text] : written)
     EXPECT_TRUE(contains(sentence_of(made_up(finding_rule(rule), "x")), text)) << rule;
   Finding times = made_up(finding_rule("engine-times"), "x");
