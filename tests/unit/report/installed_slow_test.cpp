@@ -97,7 +97,7 @@ TEST_F(Installed, AProgramAwayFromItsFilesSaysSo) {
 
 TEST_F(Installed, TheLibraryIsFoundAndRuns) {
   write_file(work() / "rope/CMakeLists.txt",
-             "cmake_minimum_required(VERSION 3.25)\nproject(rope CXX)\nfind_package(crosscheck 0.1 REQUIRED)\n"
+             "cmake_minimum_required(VERSION 3.25)\nproject(rope CXX)\nfind_package(crosscheck 1.0 REQUIRED)\n"
              "add_executable(rope example.cpp)\ntarget_link_libraries(rope PRIVATE crosscheck::mysim)\n"
              "add_executable(engine example_engine.cpp)\ntarget_link_libraries(engine PRIVATE crosscheck::protocol)\n");
   for (const char* file : {"example.cpp", "example_engine.cpp"})
