@@ -285,7 +285,7 @@ class Seen {
       if (std::find(tried.begin(), tried.end(), values) != tried.end()) return;
       // a constant offset is a multiple of any constant and so proves nothing
       if (values.size() > 1 && block.width == 1 &&
-          std::count(values.begin(), values.end(), values[0]) == std::ssize(values))
+          std::all_of(values.begin(), values.end(), [&](double value) { return value == values[0]; }))
         return;
       tried.push_back(values);
       const double factor = multiple(block, rows, off, unit);

@@ -132,7 +132,7 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
       write_file(check / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
-    if (name.starts_with("handout."))
+    if (name.starts_with("handout.") && ends(file, {".md"}))
       write_file(folder / name, content_of_file(file));  // also the translated handout.zh.md, if there is one
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_file(check / name, shown_texts(file));
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_file(check / name, source_in_check(file));

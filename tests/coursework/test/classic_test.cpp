@@ -125,7 +125,7 @@ TEST(Classic, WhatKeepsAClassFromBeingUsedIsToldWithoutDenyingIt) {
       {begin + draws + evalF + " const { return state; }\n" + end, "the class is abstract"},
       {begin + draws + "  SimpleSystem();\n" + evalF + " { return state; }\n" + end,
        "SimpleSystem::SimpleSystem() is declared, but no file of yours that compiles"},
-      {begin + draws + evalF + ";\n" + end, "no file of yours that compiles"},
+      {begin + draws + evalF + ";\n" + end, "No file of yours that compiles"},
       {"template <class T> " + begin.substr(begin.find("class")) + draws + end,
        "SimpleSystem (simple.h) does not compile"},
       {begin + draws + "  vector<Vector3f> SimpleSystem::evalF(vector<Vector3f> state) { return state; }\n" + end,
