@@ -21,35 +21,20 @@ namespace fs = std::filesystem;
 using crosscheck::write_file;
 namespace {
 
-/// Number of tests and sum of points in `check`. Some tests exist only in the grader.
-std::pair<int, int> counted(const Assignment& assignment, const PublicTests& tests) {
-  int points = 0, here = 0;
-  for (const PublicTest& test : tests.tests)
-    if (assignment.takes_whole_program() || !test.cases.empty()) points += test.points, ++here;
-  return {here, points};
-}
-
-void write_public_cases(const PublicTests& tests, const fs::path& folder) {
+/// Writes the public cases, and a README.md that lists the parts' files with this ending.
+void write_tests(const Assignment& assignment, const char* readme, const char* ending, const fs::path& folder) {
+  const PublicTests tests = public_tests(assignment);
   std::ostringstream cases;
   write_cases(cases, tests);
-  write_file(folder / "public_cases.txt", cases.str());
-}
-
-/// Writes README.md. Writes CMakeLists.txt too, unless a whole program's starter has one.
-void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
-  const bool whole = assignment.takes_whole_program();
-  std::string built, listed;
-  for (const Part& part : assignment.parts) {
-    built += fmt::format("  {}.cpp\n", part.name);
-    listed += fmt::format("- `{}.cpp`\n", part.name);
-  }
-  const auto [here, points] = counted(assignment, tests);
-  if (!whole)
-    write_file(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
+  write_file(folder / "check/public_cases.txt", cases.str());
+  int points = 0, here = 0;  // some tests exist only in the grader
+  for (const PublicTest& test : tests.tests)
+    if (assignment.takes_whole_program() || !test.cases.empty()) points += test.points, ++here;
+  std::string listed;
+  for (const Part& part : assignment.parts) listed += fmt::format("- `{}{}`\n", part.name, ending);
   write_file(folder / "README.md",
-             filled(whole ? "handout/README-whole.md" : "handout/README.md",
-                    {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
-                     std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
+             filled(readme, {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
+                             std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
 }
 
 /// The texts without descriptions of known mistakes, and without comments.
@@ -124,7 +109,6 @@ PublicTests public_tests(const Assignment& assignment) {
 void write_handout(const Assignment& assignment, const fs::path& folder) {
   const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
   const bool whole = assignment.takes_whole_program();
-  const PublicTests tests = public_tests(assignment);
   for (const fs::path& file : sorted(from / "starter"))
     if (!ends(file, {".py"})) write_file(folder / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(shared))
@@ -137,9 +121,14 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_file(check / name, shown_texts(file));
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_file(check / name, source_in_check(file));
   }
-  if (whole) write_surroundings(from, folder);
-  write_public_cases(tests, check);
-  write_instructions(assignment, tests, folder);
+  if (whole) {
+    write_surroundings(from, folder);
+  } else {
+    std::string built;
+    for (const Part& part : assignment.parts) built += fmt::format("  {}.cpp\n", part.name);
+    write_file(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
+  }
+  write_tests(assignment, whole ? "handout/README-whole.md" : "handout/README.md", ".cpp", folder);
 }
 
 void write_python_handout(const Assignment& assignment, const fs::path& folder) {
@@ -147,11 +136,10 @@ void write_python_handout(const Assignment& assignment, const fs::path& folder) 
     throw crosscheck::InputError(fmt::format(
         "--language python: {} is in C++ only; a1-steppers and a2-pendulum are also in Python", assignment.name));
   const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
-  std::string listed, lecture = content_of_file(from / "handout.md");
+  std::string lecture = content_of_file(from / "handout.md");
   for (const Part& part : assignment.parts) {
     const std::string file = std::string(part.name) + ".py";
     write_file(folder / file, content_of_file(from / "starter" / file));
-    listed += fmt::format("- `{}`\n", file);
   }
   for (const Mistake& one : read_mistakes(from / "handout.python.txt")) lecture = with_mistake(lecture, one);
   write_file(folder / "handout.md", lecture);
@@ -163,13 +151,7 @@ void write_python_handout(const Assignment& assignment, const fs::path& folder) 
     write_file(check / common, content_of_file(shared / common));
     write_file(check / own, shown_texts(from / own));
   }
-  const PublicTests tests = public_tests(assignment);
-  write_public_cases(tests, check);
-  const auto [here, points] = counted(assignment, tests);
-  write_file(folder / "README.md",
-             filled("handout/README-python.md",
-                    {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
-                     std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
+  write_tests(assignment, "handout/README-python.md", ".py", folder);
 }
 
 }  // namespace coursework
