@@ -6,21 +6,27 @@ python3 check.py --lang zh      in another language
 
 Only the grader finds causes of mistakes and runs hidden tests. Needs Python 3.8 or newer and NumPy.
 """
+import os
+import sys
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+# main() adds the student's folder, so that a random.py in it does not replace the one that we and NumPy import
+sys.path[:] = [os.path.join(HERE, "check")] + [path for path in sys.path if os.path.realpath(path) != HERE]
+
 import argparse
 import importlib
 import math
-import os
-import sys
+import tokenize  # some versions of traceback import it late
 import traceback
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, "check")]
 try:
     import numpy as np
 except ModuleNotFoundError:
     sys.exit("check.py needs NumPy: install the package python3-numpy, or use pip install numpy")
 import calls
 from drawing_stubs import DrawingFinder
+
+del sys.modules["calls"], sys.modules["drawing_stubs"]  # the student may have modules with these names
 
 MOST_SHOWN = 12  # numbers of a case that are printed
 
@@ -130,6 +136,7 @@ def main():
     options.add_argument("which", nargs="*", metavar="NUMBER_OR_PART")
     options = options.parse_args()
     sys.meta_path.insert(0, DrawingFinder)
+    sys.path[0] = HERE
     not_yours = set(sys.modules)  # imported when the interpreter started, and by this file
     texts = read_texts(options.lang)
     tests, hidden = read_tests()

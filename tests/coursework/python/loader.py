@@ -16,6 +16,7 @@ import importlib.machinery
 import importlib.util
 import linecache
 import re
+import tokenize  # some versions of linecache import it late, when the student's folders are on the path
 import traceback
 import types
 
@@ -23,6 +24,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from drawing_stubs import DrawingFinder
+
+del sys.modules["drawing_stubs"]  # the student may have a module with this name
 
 
 class Remote:

@@ -2,6 +2,7 @@
 // verdicts.
 #include "tests/coursework/grader/python.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -201,9 +202,24 @@ TEST(PythonSubmission, IsGradedFromNestedFoldersWithModulesOfItsOwn) {
   EXPECT_EQ(result.earned(), result.points());
 }
 
-struct Message {
-  const char *source, *said;
-};
+/// Modules with the names of ours and of Python's, which no code of ours may import.
+std::map<std::string, std::string> shadows() {
+  std::map<std::string, std::string> files;
+  for (const char* name : {"argparse", "calls", "drawing_stubs", "importlib", "json", "loader", "math", "numbers",
+                           "numpy", "os", "random", "secrets", "tokenize", "traceback", "types"})
+    files[std::string(name) + ".py"] = "import sys\nsys.exit('imported')\n";
+  return files;
+}
+
+TEST(PythonSubmission, MayHaveModulesNamedLikeOurs) {
+  if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
+  std::map<std::string, std::string> files = shadows();
+  files["euler.py"] =
+      "from drawing_stubs import moved\n\n\ndef euler_step(f, t, x, h):\n    return moved(x, h, f(t, x))\n";
+  files["drawing_stubs.py"] = "def moved(x, h, k):\n    return x + h * k\n";
+  const Result result = graded(files);
+  EXPECT_EQ(result.earned(), result.points()) << result.tests[0].said;
+}
 
 TEST(PythonSubmission, NamesFileLineAndValue) {
   if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
@@ -255,6 +271,29 @@ TEST(PythonHandout, HoldsNoLineOfTheSolution) {
       for (std::string line; std::getline(lines, line);)
         if (line.starts_with("    ") && line.size() > 20) EXPECT_EQ(all.find(line), std::string::npos) << line;
     }
+  }
+}
+
+/// The output of the hand-out's check.py for the solution with these files added or replaced.
+std::string checked(const char* name, std::map<std::string, std::string> files, const std::string& options = "") {
+  const Assignment& assignment = find_assignment(name);
+  const TemporaryFolder folder("handout");
+  write_python_handout(assignment, folder.path);
+  for (const Part& part : assignment.parts)
+    files.emplace(std::string(part.name) + ".py", solution(assignment, std::string(part.name)));
+  for (const auto& [file, content] : files) write_file(folder.path / file, content);
+  return said_by("(/usr/bin/python3 -B " + options + " " + (folder.path / "check.py").string() + " 2>&1)");
+}
+
+TEST(PythonHandout, ImportsOnlyItsOwnModules) {
+  if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
+  std::map<std::string, std::string> files = shadows();
+  for (const char* helper : {"calls", "drawing_stubs"}) {
+    files["euler.py"] =
+        fmt::format("import {0}\n\n\ndef euler_step(f, t, x, h):\n    return {0}.moved(x, h, f(t, x))\n", helper);
+    files[std::string(helper) + ".py"] = "def moved(x, h, k):\n    return x + h * k\n";
+    const std::string said = checked("a1-steppers", files);
+    EXPECT_NE(said.find("All public tests passed"), std::string::npos) << said;
   }
 }
 
