@@ -22,7 +22,7 @@ import traceback
 try:
     import numpy as np
 except ModuleNotFoundError:
-    sys.exit("check.py needs NumPy: install the package python3-numpy, or use pip install numpy")
+    sys.exit("check.py needs NumPy. Debian and Ubuntu: apt install python3-numpy; elsewhere: pip install numpy")
 import calls
 from drawing_stubs import DrawingFinder
 

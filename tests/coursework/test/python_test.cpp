@@ -297,6 +297,12 @@ TEST(PythonHandout, ImportsOnlyItsOwnModules) {
   }
 }
 
+TEST(PythonHandout, SaysHowToInstallNumPy) {
+  if (!missing_python_package().empty()) GTEST_SKIP();
+  EXPECT_EQ(checked("a1-steppers", {}, "-S"),
+            "check.py needs NumPy. Debian and Ubuntu: apt install python3-numpy; elsewhere: pip install numpy\n");
+}
+
 TEST(PythonHandout, IsRefusedForOtherAssignments) {
   const TemporaryFolder folder("handout");
   EXPECT_THROW(write_python_handout(find_assignment("a3-cloth"), folder.path / "given"), crosscheck::InputError);
