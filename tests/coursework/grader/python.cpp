@@ -95,8 +95,7 @@ class PythonBuilder final : public Builder {
     const std::string said = end.answers.substr(0, end.answers.find('\n'));
     const std::size_t blank = std::min(said.find(' '), said.size());
     const std::string kind = said.substr(0, blank), what = said.substr(std::min(blank + 1, said.size())).substr(0, 200);
-    if (kind == "module" || kind == "undefined") return {{}, {"python." + kind, {file, what}}};
-    if (kind == "threw") return {{}, {"python.import", {file, what}}};
+    if (kind == "module" || kind == "undefined" || kind == "import") return {{}, {"python." + kind, {file, what}}};
     if (kind != "good") return {{}, {"python.ended", {file}}};
     command[4] = "serve";
     const std::string source = content_of_file(assignment_.folder() / "python.cpp");

@@ -46,7 +46,7 @@ def as_array(what, value, *shape):
         raise TypeError(f"{what}: expected numbers, got {value if value is None else type(value).__name__}")
     array = np.array(value, dtype=float)
     if array.ndim != len(shape) or any(wanted not in (-1, size) for wanted, size in zip(shape, array.shape)):
-        raise TypeError(f"{what}: expected an array of shape {shape}, got {array.shape}")
+        raise TypeError(f"{what}: expected an array of shape {shape}, got {array.shape}".replace("-1", "n"))
     return array
 
 
@@ -109,6 +109,21 @@ def table(texts, case, got):
     return "\n".join(line.rstrip() for line in lines)
 
 
+def described(error):
+    """Type and text of an exception, below the last of the student's lines that led to it."""
+    try:
+        text = str(error).encode(errors="replace").decode()
+    except BaseException:  # raised by __str__ of the student's class
+        text = ""
+    places = [(call.filename, call.lineno, call.line) for call in traceback.extract_tb(error.__traceback__)]
+    if isinstance(error, SyntaxError):
+        places.append((str(error.filename), error.lineno, (error.text or "").strip()))
+    ours = tuple(os.path.join(HERE, "check" + end) for end in (".py", os.sep))
+    own = [f"{os.path.basename(file)}, line {line}: {code}\n" for file, line, code in places
+           if file.startswith(HERE + os.sep) and not file.startswith(ours) and "-packages" not in file[len(HERE):]]
+    return "".join(own[-1:]) + type(error).__name__ + (f": {text}" if text else "")
+
+
 def run(test, texts):
     """Describes the first case that fails; returns an empty string if all cases pass."""
     for number, case in enumerate(test["cases"], 1):
@@ -119,11 +134,7 @@ def run(test, texts):
                 continue
             said = table(texts, case, got)
         except (Exception, SystemExit) as error:
-            said = f"{type(error).__name__}: {error}"
-            own = [call for call in traceback.extract_tb(error.__traceback__)
-                   if call.filename.startswith(HERE) and not call.filename.startswith(os.path.join(HERE, "check"))]
-            if own:
-                said = f"{os.path.basename(own[-1].filename)}, line {own[-1].lineno}: {own[-1].line}\n{said}"
+            said = described(error)
         hint = texts.get(test["id"] + ".hint")
         return "\n".join([texts["which"].format(number, len(test["cases"])) + " " + case["call"], said,
                           *([texts["hint"].format(hint)] if hint else []), texts["read"].format(test["read"])])

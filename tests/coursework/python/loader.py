@@ -121,16 +121,25 @@ def serve(name, words):
         changed = [f"changed {i} {encoded(value)}" for i, value in enumerate(values)
                    if before[i] is not None and value.tobytes() != before[i]]
         send("return", encoded(result), *changed)
-    except (TypeError, ValueError) as error:
+    except BaseException as error:
         code = getattr(function, "__code__", None)
         place = f"{os.path.basename(code.co_filename)}, line {code.co_firstlineno}: " if code else ""
-        send("threw", one_line(f"{place}TypeError: {name} returned something unusable: {error}"))
+        what = f"{type(error).__name__}: {name} returned something unusable: {safely(str, error)}"
+        send("threw", one_line(place + what))
+
+
+def safely(function, *values):
+    """Returns the text function(*values), or an empty text if it raises, as a student's __str__ may."""
+    try:
+        return function(*values)
+    except BaseException:
+        return ""
 
 
 def told(error):
     """Describes an exception: file and line of the innermost call in the student's files, and the line's variables."""
-    what = type(error).__name__ + (f": {error}" if str(error) else "")
-    if isinstance(error, SyntaxError) and error.filename:
+    what = ": ".join(filter(None, (type(error).__name__, safely(str, error))))
+    if isinstance(error, SyntaxError) and str(error.filename).startswith(tuple(folders)):
         return one_line(f"{os.path.basename(error.filename)}, line {error.lineno}: {type(error).__name__}: {error.msg}")
     calls = [(frame, line) for frame, line in traceback.walk_tb(error.__traceback__)
              if frame.f_code.co_filename.startswith(tuple(folders))]
@@ -139,15 +148,20 @@ def told(error):
     frame, line = calls[-1]
     file, values = frame.f_code.co_filename, ""
     for name in dict.fromkeys(re.findall(r"[A-Za-z_]\w*", linecache.getline(file, line))):
-        value = frame.f_locals.get(name)
-        if isinstance(value, (int, float, str, list, tuple, np.ndarray, np.generic)):
-            text = str(value) if isinstance(value, (np.ndarray, np.generic)) else repr(value)
-            values += f"; {name} = {text}" if len(text) <= 60 else f"; len({name}) = {len(value)}"
+        values += safely(shown, name, frame.f_locals.get(name))
     return one_line(f"{os.path.basename(file)}, line {line}: {what}{values}")
 
 
+def shown(name, value):
+    """Describes a variable, if it is a number, a text or a list."""
+    if not isinstance(value, (int, float, str, list, tuple, np.ndarray, np.generic)):
+        return ""
+    text = str(value) if isinstance(value, (np.ndarray, np.generic)) else repr(value)
+    return f"; {name} = {text}" if len(text) <= 60 else f"; len({name}) = {len(value)}"
+
+
 def one_line(text):
-    return " ".join(text.split())
+    return " ".join(text.split()).encode(errors="replace").decode()
 
 
 def load():
@@ -161,10 +175,9 @@ def outcome():
     try:
         missing = [name for name in names if name not in load()]
         return f"undefined {missing[0]}" if missing else "good"
-    except ModuleNotFoundError as error:
-        return f"module {error.name}"
     except BaseException as error:
-        return f"threw {told(error)}"
+        module = isinstance(error, ModuleNotFoundError) and error.name
+        return f"module {module}" if module else f"import {told(error)}"
 
 
 mode, part, names, official, *folders = sys.argv[1:]

@@ -202,6 +202,10 @@ TEST(PythonSubmission, IsGradedFromNestedFoldersWithModulesOfItsOwn) {
   EXPECT_EQ(result.earned(), result.points());
 }
 
+/// Four lines that define an exception without a text.
+const std::string unprintable =
+    "class Unprintable(Exception):\n    def __str__(self):\n        raise SystemExit\n    __repr__ = __str__\n";
+
 /// Modules with the names of ours and of Python's, which no code of ours may import.
 std::map<std::string, std::string> shadows() {
   std::map<std::string, std::string> files;
@@ -235,6 +239,14 @@ TEST(PythonSubmission, NamesFileLineAndValue) {
       {"def euler(f, t, x, h):\n    return x\n", "euler.py does not define the function euler_step"},
       {head + "    import os\n    os._exit(0)\n", "Functions must return"},
       {head + "    return euler_step(f, t, x, h)\n", "RecursionError"},
+      {head + "    return [10**400, 1]\n", "euler.py, line 1: OverflowError: euler_step returned something unusable"},
+      {"i = 10**100\n" + head + "    k = i\n    return x[7 * k]\n", "euler.py, line 4: IndexError"},
+      {unprintable + head + "    raise Unprintable\n", "euler.py, line 6: Unprintable"},
+      {unprintable + head + "    i = [Unprintable()]\n    return x[i]\n", "euler.py, line 7: "},
+      {unprintable + "raise Unprintable\n", "euler.py cannot be imported: euler.py, line 5: Unprintable"},
+      {head + "    raise ValueError('\\ud800')\n", "euler.py, line 2: ValueError: ?"},
+      {"eval('1 +')\n", "euler.py cannot be imported: euler.py, line 1: SyntaxError"},
+      {"from math import sum\n", "euler.py cannot be imported: euler.py, line 1: ImportError"},
   };
   for (const auto& [source, said] : messages) {
     const Result result = graded({{"euler.py", source}});
@@ -295,6 +307,35 @@ TEST(PythonHandout, ImportsOnlyItsOwnModules) {
     const std::string said = checked("a1-steppers", files);
     EXPECT_NE(said.find("All public tests passed"), std::string::npos) << said;
   }
+}
+
+TEST(PythonHandout, NamesTheStudentsLine) {
+  if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
+  const std::string head = "def euler_step(f, t, x, h):\n";
+  const std::pair<std::string, std::string> messages[] = {
+      {"x = 1\nimport nothing_such\n", "euler.py, line 2: import nothing_such\n      ModuleNotFoundError: "},
+      {"x = 1 / 0\n", "euler.py, line 1: x = 1 / 0\n      ZeroDivisionError: division by zero\n"},
+      {head + "    return (x\n", "euler.py, line 2: return (x\n      SyntaxError: "},
+      {"eval('1 +')\n", "euler.py, line 1: eval('1 +')\n      SyntaxError: "},
+      {head + "    return x[7]\n", "euler.py, line 2: return x[7]\n      IndexError: index 7 is out of bounds"},
+      {head + "    return f(t, 1.0)\n", "euler.py, line 2: return f(t, 1.0)\n      TypeError: the state given to f: "},
+      {unprintable + head + "    raise Unprintable\n", "euler.py, line 6: raise Unprintable\n      Unprintable\n"},
+      {head + "    raise ValueError('\\ud800')\n", "\n      ValueError: ?\n"},
+  };
+  for (const auto& [source, message] : messages) {
+    const std::string said = checked("a1-steppers", {{"euler.py", source}});
+    EXPECT_NE(said.find(message), std::string::npos) << message << "\n" << said;
+    EXPECT_EQ(said.find("check.py"), std::string::npos) << said;
+    EXPECT_NE(said.find("\nTotal: "), std::string::npos) << said;
+  }
+}
+
+TEST(PythonHandout, NamesTheShapeOfAState) {
+  if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
+  const std::string said =
+      checked("a2-pendulum", {{"pendulum.py", "def pendulum_derivative(p, a):\n    return a[0]\n"}});
+  EXPECT_NE(said.find("TypeError: the derivative: expected an array of shape (n, 3), got (3,)"), std::string::npos)
+      << said;
 }
 
 TEST(PythonHandout, SaysHowToInstallNumPy) {
