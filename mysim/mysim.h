@@ -96,7 +96,7 @@ struct Result {
   std::string reason;       // one sentence if the run failed
   double end;               // s, last time
   double step;              // s, as used
-  long steps, evaluations;  // `evaluations` counts those of the right-hand side
+  long steps, evaluations;  // steps taken, and evaluations of the right-hand side
   double cpu_seconds;       // s, stepping only, without observers
   bool ok() const { return verdict == "ok"; }
 };

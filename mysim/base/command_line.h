@@ -48,9 +48,9 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
 }
 
-/// The content of --help as JSON, from which the manual and the shell completions are generated: a list of commands
-/// with `name`, `what`, `words` (positional arguments: `name`, `what`) and `options` (`names`, their joined form
-/// `title`, `value`, empty for flags, and `what`). Omits hidden entries and --help itself.
+/// The content of --help as JSON, from which the manual and the shell completions are generated. Each command has
+/// `name`, `what`, `words` (positional arguments) and `options`. A word has `name` and `what`. An option has `names`,
+/// `title` (the names joined), `value` (empty for flags) and `what`. Omits hidden entries and --help itself.
 inline std::string command_table(const CLI::App& app) {
   Json table = Json::array();
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {

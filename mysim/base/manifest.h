@@ -22,7 +22,7 @@ struct Manifest {
   std::string since;                  // start of writing, UTC
   std::map<std::string, File> files;  // by relative path, without the manifest itself
 
-  /// A result that this process begins to write now.
+  /// The manifest of a result that this process begins to write now.
   static Manifest begun(std::string command);
   /// True for a listed file, and for its unfinished copy left by a killed run.
   bool names(const std::string& path) const;

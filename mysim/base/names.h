@@ -28,8 +28,8 @@ bool is_name(std::string_view text, std::size_t most = 200);
 /// Returns the name if it is valid, otherwise throws InputError "PLACE: expected a name ..., got '...'".
 const std::string& require_name(const std::string& name, const std::string& place, std::size_t most = 200);
 
-/// Throws InputError unless the text is valid for a cell of that column: printable; with line feeds and tabs only
-/// outside the columns of scene and method names.
+/// Throws InputError unless the text is printable. Line feeds and tabs are also allowed, except in the columns of scene
+/// and method names.
 void require_cell(const std::string& column, const std::string& text);
 
 /// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." components, at most 255

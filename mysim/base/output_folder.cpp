@@ -216,7 +216,7 @@ void absorb(const fs::path& from, const fs::path& target) {
   for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
   for (const std::string& path : paths_in(from)) {
     const fs::path file = from / path;
-    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // left by a killed writer
+    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // empty, or left by a killed writer
     if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
         same_bytes(file, (target / path) += ".yours"))
       fs::remove(file);

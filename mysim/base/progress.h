@@ -37,8 +37,8 @@ class Progress {
   void expect(int more);
   /// Erases the line from the terminal until the next step begins.
   void done();
-  /// Calls fork() while the display thread sleeps: a lock that this thread holds (e.g. of the allocator) would never be
-  /// released in the child.
+  /// Calls fork() while the display thread sleeps: if the display thread held a lock (e.g. of the allocator), it would
+  /// never be released in the child.
   pid_t fork();
 
  private:

@@ -131,7 +131,7 @@ std::string shell_quote(const std::string& word) {
     const auto c = static_cast<unsigned char>(word[i]);
     const bool shown = length > 0 && c >= 32 && c != 127;
     if (!shown)
-      escaped += fmt::format("\\{:03o}", c);  // three digits, so that a following digit is not included
+      escaped += fmt::format("\\{:03o}", c);  // always three digits, because bash reads up to three
     else
       escaped += (c == '\'' || c == '\\' ? "\\" : "") + word.substr(i, length);
     plain &= shown &&

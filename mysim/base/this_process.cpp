@@ -123,7 +123,7 @@ struct Notes {
 };
 Notes* notes = nullptr;
 
-/// Signals that end a program, unless its parent ignores them.
+/// Signals that end this process, except those that it ignores because its parent did.
 sigset_t ending_signals() {
   sigset_t set;
   sigemptyset(&set);

@@ -7,7 +7,7 @@
 namespace crosscheck {
 
 /// Accumulates the calling thread's CPU time between start() and stop(), or stays at 0 if constructed with false.
-/// Subtracts the cost of the readings (about 0.4 us, more than many steps); at least 1 ns.
+/// Subtracts the duration of the clock readings (about 0.4 us, longer than many steps), but leaves at least 1 ns.
 class CpuClock {
  public:
   explicit CpuClock(bool runs = true) : runs_(runs) {}

@@ -201,7 +201,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = multigrid_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * multigrid_->products());
   }
-  // used for other spring graphs, and for cloths on which the V-cycle fails (none is known)
+  // the pairs serve other spring graphs, and cloths on which the V-cycle fails (none is known)
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;
@@ -215,9 +215,9 @@ CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
                              3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
 }
 
-/// Moves from u_ along the direction of negative curvature to the lowest potential found. Tries lengths that begin with
-/// that of the last step and double. Near a saddle the gradient and Newton's step are small, and the potential
-/// decreases at first by less than its rounding error. Returns the potential there.
+/// Moves from u_ along the direction of negative curvature to the lowest potential found, and returns this potential.
+/// Starts with the length of the last step, and doubles it as long as the potential does not rise: near a saddle the
+/// gradient and Newton's step are small, and the potential decreases at first by less than its rounding error.
 double ImplicitStep::leave_saddle(double value, double step) {
   const double size = largest_column(downhill_);
   potential_.gradient(u_, g_);

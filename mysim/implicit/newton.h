@@ -16,9 +16,10 @@ namespace crosscheck {
 ///   P(u) = sum_i m_i |u_i|^2 / (2 h^2) + c_i |h v_n + u|_i^2 / (2 h)        inertia and drag
 ///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, bending, gravity, wind, air
 ///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
-/// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
-/// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
-/// updated ones until the result no longer changes.
+/// is the incremental potential: its gradient is the residual of the implicit Euler equations (J. Martin et al., ACM
+/// Trans. Graph. 30 (4), 2011). The forces f of the air and the dashpots' directions n_d do not derive from an energy.
+/// They are frozen at a given position, and the caller updates them and repeats the solve until the result no longer
+/// changes.
 class IncrementalPotential {
  public:
   explicit IncrementalPotential(System& f);
@@ -72,8 +73,8 @@ inline constexpr double force_tolerance = 1e-12;
 
 class ImplicitStep {
  public:
-  /// Systems of large regular cloths are solved with the V-cycle as preconditioner or, with `plain`, by the list of
-  /// pairs, which defines the system.
+  /// Linear systems of large regular cloths are solved with the V-cycle as preconditioner. With `plain`, or on other
+  /// models, products use the list of pairs, which defines the system.
   explicit ImplicitStep(System& f, bool plain = false);
 
   /// Solves the implicit Euler equations for a step of h seconds from state `s`, until the residual is below
@@ -101,7 +102,7 @@ class ImplicitStep {
   CgMemory cg_;
   int iterations_ = 0;
   std::shared_ptr<multigrid::MultigridSolver>
-      multigrid_;  // if null, the pairs are used; shared by copies, which never step at once
+      multigrid_;  // null: use the pairs. Copies share it, but never step simultaneously
   std::vector<double> descent_;
 };
 

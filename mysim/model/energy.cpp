@@ -64,7 +64,7 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
       [&](const Dashpots& t) {
         const Points& f = force_of(t);
         const double given = particles.move ? -on_pins(f) : 0;
-        // pairs dissipate the power that free ends lose and that moved pins supply
+        // a pair dissipates the power that its free ends lose, plus the power that its moved pins supply
         p.dashpots += given - free_power(particles, f, state.v);
         p.pins += given;
       },

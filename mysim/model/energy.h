@@ -16,7 +16,7 @@ struct Power {
   double drag = 0;      // W, dissipated by drag (not negative)
   double dashpots = 0;  // W, dissipated by dashpots (not negative)
   double wind = 0;      // W, supplied by the wind, uniform or on triangles
-  double pins = 0;  // W, by moved pins: minus the force of springs, bending and dashpots on each pin times its velocity
+  double pins = 0;      // W, by moved pins: sum of -f . v, with the force f of springs, bending and dashpots on a pin
   double dissipated() const { return drag + dashpots; }
 };
 

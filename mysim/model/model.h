@@ -4,7 +4,7 @@
 // The functions that a term's file declares, found by overload resolution, define what the term does:
 //   add_force(term, particles, state, forces)         a force
 //   potential_energy(term, particles, state)          an energy whose negative gradient is that force
-//   add_tangent(term, particles, state, curvature, tangent)   what implicit methods need of a force
+//   add_tangent(term, particles, state, curvature, tangent)   derivatives of that force, for implicit methods
 //   add_velocity(term, state, rate)                   a first-order velocity field
 // Terms with forces that depend on velocity (dashpots, air) also declare `uses_velocity`: leapfrog treats them
 // separately, which preserves its order. Spheres, planes and constraints are not forces: contact acts on whole steps,

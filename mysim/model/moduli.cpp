@@ -253,7 +253,7 @@ std::string sentence_of(const BendingLength& bending) {
 }
 
 std::string coarse_grid_warning(const BendingLength& bending) {
-  // a fold has at least one particle on each side
+  // resolving a fold requires at least one particle on each side of it
   if (!(bending.spacings() < 2)) return "";
   return fmt::format(
       "folds of {:.3g} m, as bending and weight produce them, are finer than two grid spacings of {:.3g} m",

@@ -39,8 +39,8 @@ struct NetModuli {
   std::string why_not;  // reason if there are no moduli
 };
 
-/// Moduli of a network whose springs are at rest, the same at every particle, and paired with opposite ones. A uniform
-/// strain then moves every particle affinely, and the energy of a particle per area or volume V gives
+/// Moduli of a network whose springs have their rest lengths, are the same at every particle, and form opposite pairs.
+/// A uniform strain then moves every particle affinely, and the energy per particle, over its area or volume V, gives
 ///   C_ijkl = sum over the springs of one particle of k L^2 n_i n_j n_k n_l / (2 V)
 /// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the
 /// network's edge keep their full stiffness, so a network of n particles per side differs by O(1/n).

@@ -50,8 +50,8 @@ class ClothGridWorld : public World {
       begin += part;
     }
     set_factors(composition, h);
-    // contacts are resolved in lanes only with fixed surfaces, and without pins and losses per particle; otherwise the
-    // callback resolves them
+    // contacts are resolved in lanes only if surfaces are fixed, nothing is pinned, and no losses of particles are
+    // recorded; otherwise the callback resolves them
     in_lanes_ = std::is_same_v<T, double> && !has_moving_surface(scene.model) && !locates_events_ &&
                 !record_contact_loss_ && scene.model.particles.pins.empty();
     for (const Surface& s : surfaces_) {
@@ -210,7 +210,7 @@ class ClothGridWorld : public World {
     Vec3 place = at(x), speed = at(v);
     // state at the beginning of the step
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    // contact changes the velocity of a particle that ends its step outside by at most O(h), so it counts as free
+    // a particle that ends its step outside counts as free, because contact changes its velocity by at most O(h)
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
                                       : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
                                                          speed, record_contact_loss_);

@@ -13,8 +13,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int most_events = 16;   // per step; after these, the rule for whole steps (terms/surface.h) applies
 constexpr int most_contacts = 4;  // simultaneous, of a particle
 
-/// The smallest argument, up to the last few bits, at which a condition holds that is false at `low` and true at
-/// `high`.
+/// Smallest argument, accurate to the last few bits, at which the condition holds. It must be false at `low` and true
+/// at `high`.
 template <class Condition>
 double first_time(Condition holds, double low, double high) {
   for (int i = 0; i < 60; ++i) {
@@ -90,7 +90,7 @@ class ParticleStep {
   static double gap(const SurfaceTrack& track, const Vec3& x, double s) {
     return track.surface().gap(x - track.origin(s));
   }
-  /// Ignores the rounding of a position on the surface, so that a particle taking off is not inside.
+  /// True if x is inside by more than rounding, so that a particle that takes off from the surface does not count.
   bool inside(const SurfaceTrack& track, const Vec3& x, double s) const {
     return gap(track, x, s) < -16 * eps * track.surface().rounding_scale(track.origin(s), reach_);
   }
@@ -211,9 +211,9 @@ class ParticleStep {
     const auto press = [&](const Vec3& n, const Vec3& speed) { return -b.dot(n) - speed.squaredNorm() / radius; };
     const Vec3 n0 = surface.normal_on(r);
     const double press0 = std::max(0.0, press(n0, w));
-    // First half of the slide. Friction opposes the mean velocity of the slide, which points along that of the slide
-    // without friction. If friction opposed an initial velocity much smaller than s mu N, transverse motion would grow
-    // without bound.
+    // First half of the slide. Friction opposes the mean velocity of the slide, whose direction is the same as without
+    // friction. If friction opposed an initial velocity much smaller than s mu N, transverse motion would grow without
+    // bound.
     const Vec3 n = surface.normal(r + s / 2 * w);
     const Vec3 unheld = without_normal_part(w + s / 2 * (b - gamma_ * w + press0 * n0), n);
     Slid end;

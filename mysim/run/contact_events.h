@@ -19,8 +19,8 @@
 // O(h^2), and an impact changes b by O(h), but in only one step. No additional acceleration is evaluated. Dashpots and
 // air depend on speeds, which contact changes by h N after the evaluation, so with these terms the order is 1. On a
 // moving sphere with friction a particle sticks and slips, and a slow slide turns towards the force within |w| / (mu
-// N), which is less than a step. Then two step sizes show any order from -0.8 to 5.7, and only the trend over many
-// shows order 2: 1.7 to 2.3 over 21 steps of 13 to 0.4 ms (mu 0.03 to 0.28 on a ball of 1 m, three motions).
+// N), which is less than a step. The order measured from two step sizes then varies from -0.8 to 5.7; only the trend
+// over many shows order 2: 1.7 to 2.3 over 21 steps of 13 to 0.4 ms (mu 0.03 to 0.28 on a ball of 1 m, three motions).
 #pragma once
 
 #include <optional>

@@ -127,8 +127,8 @@ class MotionBoundsCache {
 
 /// Verdict::energy if a free particle is faster than ten times the largest speed of the true motion, by central
 /// differences of positions. Verdict::stretch if a spring, relative to its rest length, is longer than ten times the
-/// longest of the true motion. The true motion (MotionBounds) is computed only if the run's own energy does not decide,
-/// in about one run in twenty. The kinetic energy of the free particles by central differences is
+/// longest of the true motion. The true motion (MotionBounds) is computed only if the run's own energy leaves the
+/// verdict open, in about one run in twenty. The kinetic energy of the free particles by central differences is
 ///   K^_n = sum of m/2 |(x_{n+1} - x_{n-1}) / (t_{n+1} - t_{n-1})|^2,
 /// and the energy available to the run is
 ///   B = K_0 + U_0 + max |change of gravitational energy| + max |work of wind and moved pins| + 2 h^2 sum of m |a_0|^2
@@ -152,7 +152,7 @@ class MotionBoundsCache {
 /// only lengths and non-finite numbers reveal motion that reverses between two states. If no true motion is available
 /// (hard distances; a monitor without a scene), K^ > 10 B is a failure, and so is thirty times the initial length.
 ///
-/// Verdict::frozen if by the first sample no free particle has moved or gained speed, bit for bit, although a free
+/// Verdict::frozen if by the first sample no free particle has moved or gained speed by even one bit, although a free
 /// particle that touches no surface was accelerated at the start: an engine that dropped its forces, or put a body to
 /// sleep. (Not checked under hard distances, whose forces may balance.)
 class DivergenceMonitor : public Observer {

@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// Viewpoint: only the direction from target to eye matters; the distance makes everything visible.
+/// Viewpoint: only the direction from target to eye matters; the distance is chosen so that everything is visible.
 struct Camera {
   Vec3 eye, target;          // m
   std::optional<double> at;  // s, time of the picture; default: the end

@@ -26,7 +26,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Text between two positions (in code points from 1), on one line, shortened if long.
+/// Text between two positions, which count code points from 1; on one line, shortened if long.
 std::string written_between(std::string_view text, const toml::source_region& where) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < where.begin.line && at < text.size(); ++at) line += text[at] == '\n';

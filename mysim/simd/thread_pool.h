@@ -6,8 +6,8 @@
 
 namespace crosscheck::simd {
 
-/// An idle thread spins for some microseconds, then yields, and sleeps after a millisecond, because waking up takes
-/// longer than a step of a small cloth.
+/// An idle thread spins for some microseconds, then yields, and sleeps only after a millisecond, because waking up
+/// takes longer than a step of a small cloth.
 class ThreadPool {
  public:
   /// `threads`: number of threads, including the calling thread, which is the first.

@@ -35,7 +35,7 @@ double first_exit(Growth growth, double scale) {
       const double middle = (low + high) / 2;
       (unstable(middle) ? high : low) = middle;
     }
-    // a rule that grows slowly at every step is unstable at the first point
+    // a rule that is unstable at every step size, if only slightly, is so at the first point
     return i == 1 ? 0 : low;
   }
   return infinity;
@@ -81,8 +81,8 @@ double spectral_radius(const Eigen::Matrix2d& m) {
 }  // namespace
 
 double explicit_euler(double omega, double gamma) {
-  // at the limit |1 + h lambda| = 1; a complex pair has |lambda|^2 = omega^2 and Re lambda = -gamma/2, and of a real
-  // pair the fast eigenvalue decides
+  // at the limit |1 + h lambda| = 1; a complex pair has |lambda|^2 = omega^2 and Re lambda = -gamma/2, and for a real
+  // pair the fast eigenvalue determines the limit
   if (gamma < 2 * omega) return gamma / (omega * omega);
   const double fast = (gamma + std::sqrt(gamma * gamma - 4 * omega * omega)) / 2;
   return fast > 0 ? 2 / fast : infinity;

@@ -44,10 +44,10 @@ using StepFunction = void (*)(System&, State&, double h, Workspace&);
 /// is. For omega = 0, the limit due to drag alone.
 using StabilityLimit = double (*)(double omega, double gamma);
 
-/// A rule of kicks v' = v + h F/m and drifts x' = x + h v' only: a sequence of leapfrogs (half drift, kick, half drift)
-/// over fractions of the step, with drag averaged over old and new velocity; or, if `kick_first`, whole kicks followed
-/// by whole drifts, with drag at the old velocity. Such rules have a fast path on regular cloths
-/// (mysim/simd/cloth_grid/).
+/// A rule that consists of kicks v' = v + h F/m and drifts x' = x + h v' only. It is a sequence of leapfrogs (half
+/// drift, kick, half drift) over fractions of the step, with drag averaged over old and new velocity, or, if
+/// `kick_first`, of whole kicks followed by whole drifts, with drag at the old velocity. Such rules have a fast path on
+/// regular cloths (mysim/simd/cloth_grid/).
 struct KickDriftComposition {
   std::vector<double> fractions;  // sum to 1
   bool kick_first = false;
@@ -67,7 +67,7 @@ struct Stepper {
   bool hard_constraints = false;   // supports hard distances
   double solved_to = 0;            // implicit rules: residual relative to the largest force, inertia m v / h included
   StepFunction linear = nullptr;   // rule of the option +linear
-  KickDriftComposition (*composition)() = nullptr;  // null if the rule is no such composition
+  KickDriftComposition (*composition)() = nullptr;  // null if the rule is not one
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -127,7 +127,7 @@ class DormandPrince {
   const State& next() const { return next_; }
   /// Estimated error of next(): order 5 minus order 4, in positions (3 x n, m) and velocities (3 x n, m/s).
   const State& error();
-  /// Largest speed (m/s) that the first stage alone would produce in the attempted step.
+  /// Largest speed (m/s) that a particle at rest would gain in the attempted step with the accelerations at its start.
   double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }
   /// The last stage becomes the first of the next step.
   void accept() { std::swap(k_[0], k_[6]); }

@@ -1,6 +1,6 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
 // Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs, bending
-// and hard distances, each of which corrects the positions of its particles at once.
+// and hard distances, each of which corrects the positions of its particles immediately.
 
 #include <algorithm>
 

@@ -10,8 +10,8 @@ namespace crosscheck {
 
 /// With u = wind velocity - mean velocity of the three corners, and A = area times unit normal, the force on the
 /// triangle is 1/2 rho C |u| (u . A) A / |A|, a third of it on each corner: the pressure on a flat plate, proportional
-/// to |u|^2 and to the sine of the angle between plate and air. It has no potential energy; its work is that of the
-/// wind.
+/// to |u|^2 and to the sine of the angle between plate and air. It has no potential energy; its work counts as work of
+/// the wind.
 struct Aerodynamics {
   static constexpr std::string_view name = "aerodynamics";
   static constexpr bool uses_velocity = true;

@@ -15,7 +15,8 @@
 // weights sum to zero, |c|^2 = - sum_{i<j} w_i w_j |x_i - x_j|^2: a stencil is equivalent to springs of zero rest
 // length and stiffness -k w_i w_j, some of it negative. Therefore momentum and angular momentum are conserved.
 //
-// Pins at -p/2 and p/2 clamp a row level at s = 0; the error of its shape then decreases as p^2.
+// Let s be the arc length along a row. Pins at s = -p/2 and p/2 at the same height clamp the row horizontally at s = 0,
+// and the error of its shape then decreases as p^2.
 #pragma once
 
 #include <array>

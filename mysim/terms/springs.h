@@ -1,7 +1,7 @@
 // Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L, and the opposite on b. The law T is
 //   hooke         T = k (L - r), energy k (L - r)^2 / 2;
 //   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))).
-// bullet-link is the limit of Bullet's position-based links for steps towards 0 (projection per step over h^2).
+// bullet-link is the limit of Bullet's position-based links for steps h -> 0: their correction per step, over h^2.
 #pragma once
 
 #include <cmath>

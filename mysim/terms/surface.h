@@ -111,12 +111,12 @@ class Surface {
   double approach(const Vec3& d, const Vec3& w) const { return flat() ? w.dot(normal_) : d.dot(w); }
   /// Point on the surface nearest to d, where n is the normal.
   Vec3 nearest(const Vec3& d, const Vec3& n) const { return flat() ? Vec3(d - d.dot(n) * n) : Vec3(radius_ * n); }
-  /// x projected onto the surface whose origin is at `origin`; n is the normal there. A point on a plane up to rounding
-  /// keeps its coordinates along the plane.
+  /// x projected onto the surface whose origin is at `origin`; n is the normal there. If x is already on a plane, up to
+  /// rounding, its coordinates along the plane do not change.
   Vec3 put_on(const Vec3& origin, const Vec3& x, const Vec3& n) const {
     return flat() ? Vec3(x - (x - origin).dot(n) * n) : Vec3(origin + radius_ * n);
   }
-  /// Length (m) with the same rounding as a gap; `reach`: distance of the particle's coordinates from 0.
+  /// Length (m) relative to which a gap is rounded; `reach`: distance of the particle from the coordinate origin.
   double rounding_scale(const Vec3& origin, double reach) const { return (flat() ? reach : radius_) + origin.norm(); }
 
  private:
@@ -135,8 +135,8 @@ double clearance_from(std::span<const Surface> surfaces, double t, const Vec3& x
 double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
                        Eigen::Ref<Vec3> v);
 
-/// The assignment's sphere, kept to demonstrate its failure: a touching particle returns to its previous position, on
-/// the surface, without velocity, so it freezes there. Returns the push p (m), or 0 without contact.
+/// The assignment's sphere, kept to demonstrate its failure: a touching particle is put on the surface at its previous
+/// position and loses its velocity, so it freezes there. Returns the push p (m), or 0 without contact.
 double resolve_contact_sticky(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
                               Eigen::Ref<Vec3> v);
 

@@ -1,6 +1,6 @@
 // Linear systems of implicit steps on a cloth: A u = b with A = inertia + stiffness of the springs, never assembled.
 //
-// Conjugate gradients need many iterations when springs are stiff for the step, because a pull travels by one spring
+// Conjugate gradients need many iterations when springs are stiff for the step size: a pull travels by one spring
 // per iteration. On a grid of every second row and column it travels twice as fast, and on a grid of every fourth row
 // and column, four times as fast. The error that remains on the finest grid consists of short waves, which a few rounds
 // of relaxation remove. The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods
@@ -10,14 +10,14 @@
 // precision.
 //
 // The relaxation is Chebyshev's, with the inverse 3 x 3 diagonal blocks. The eigenvalues of D^-1 A are below 2 for any
-// springs: u.A u sums (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b) over springs, which is twice the sum over
-// the blocks.
+// springs: the springs' part of u.A u is the sum of (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b), and the sum
+// of the right-hand sides is twice their part of u.D u.
 //
 // The memory layout is that of the fused step (simd/cloth_grid/fused_step.h), with as many lanes for double as for
 // single precision, so that both use the same order: column c is in lane c / tiles of tile c % tiles. The coarse
-// columns are the even tiles, lane by lane, and no data moves across lanes between grids. Each product is one pass over
-// the rows: the forces on a row are complete once its own springs have been evaluated, so the row can then be modified
-// in place.
+// columns are the even tiles, so transfers between grids move no data across lanes. Each product is one pass over the
+// rows: the forces on a row are complete once its own springs have been evaluated, so the row can then be modified in
+// place.
 #pragma once
 
 #include "mysim/simd/cloth_grid/fused_step.h"

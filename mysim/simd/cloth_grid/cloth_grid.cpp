@@ -205,7 +205,7 @@ namespace {
 
 constexpr int halo_rows = 2;
 
-/// Each slab has at least twice as many rows as its neighbours copy.
+/// Gives each slab at least twice as many rows as a neighbour copies from it.
 int slab_count(int rows, int threads) { return std::clamp(rows / (2 * halo_rows), 1, std::max(threads, 1)); }
 
 }  // namespace

@@ -35,8 +35,8 @@ std::optional<GridTopology> find_grid_topology(const Springs& springs, int parti
 
 // A cloth's memory: conversion between scene order and lanes.
 
-/// With fewer columns, a row is a single tile of floats, whose skip-one springs would cross two lanes. Both precisions
-/// support the same cloths.
+/// With fewer columns, a row is a single tile of floats, whose skip-one springs would cross two lanes. Double precision
+/// has the same limit, so that both precisions support the same cloths.
 inline constexpr int fewest_columns = lanes<float> + 1;
 inline bool fits(const GridTopology& topology) { return topology.columns >= fewest_columns; }
 

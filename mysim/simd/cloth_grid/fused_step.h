@@ -26,8 +26,8 @@
 namespace crosscheck::simd {
 
 inline constexpr int directions = 6;  // spring directions, towards later particles
-/// Offsets between the ends of a spring: in the row, to the next particle and to the next but one; to the next row,
-/// straight and along both diagonals; and straight to the next row but one.
+/// Offset between the ends of a spring: to the next particle or the next but one in the row; to the next row, straight
+/// or along one of the diagonals; or straight to the next row but one.
 struct Direction {
   int down, right;
 };

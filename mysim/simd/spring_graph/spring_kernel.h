@@ -11,9 +11,9 @@ namespace simd {
 enum class InstructionSet;
 }
 
-/// Adds the forces of the plain edge loop of terms/springs.h, in another order. Each spring uses the cheapest of three
-/// ways (simd/spring_graph/spring_layout.h): by its offset (DIA), in a list of edges (COO; both in
-/// simd/spring_graph/dia_coo_kernels.h), or, if there are too few springs for lanes, the plain loop. A force has the
+/// Adds the forces of the plain edge loop of terms/springs.h, in another order. Each force is computed in the cheapest
+/// of three ways (simd/spring_graph/spring_layout.h): by the offset of its spring (DIA), in a list of edges (COO), both
+/// in simd/spring_graph/dia_coo_kernels.h, or, if there are too few springs for lanes, by the plain loop. It has the
 /// same bits in each way. Results depend neither on threads nor on the instruction set.
 class SpringKernel {
  public:

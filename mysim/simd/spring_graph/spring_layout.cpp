@@ -130,7 +130,7 @@ Spring oriented(Spring s) {
 
 bool by_first_end(const Spring& p, const Spring& q) { return p.a < q.a; }
 
-/// Number of tiles from the first to the last in which springs of this order begin.
+/// Number of tiles from the first to the last in which these springs begin; `order`: their indices, sorted by `a`.
 int tiles_of(const std::vector<Spring>& springs, const std::vector<int>& order) {
   return oriented(springs[order.back()]).a / tile + 1 - oriented(springs[order.front()]).a / tile;
 }
