@@ -12,7 +12,7 @@ import sys
 BASE = "8a3fe1f35a065ebede9c13199557e67aea004d12"  # older commit subjects stay
 EMPTY_TREE = "4b825dc642cb6eb9a060e54bf8d69288fbee4904"  # git's name for it in every repository
 
-# Offences that stay: a part of the reported line, and the reason.
+# Permitted offences: part of the reported line -> reason.
 CORPUS = "patterns of the corpus match the text of what students get and hand in"
 EXCEPTIONS = {
     f"tests/coursework/{file}:": CORPUS
@@ -48,7 +48,7 @@ def changed_lines(base):
 
 
 def comment_offences(lines, marker, changed):
-    """Comments whose first word is one of OPENING. A line that continues a comment counts if its word is a capital."""
+    """Comments that begin with one of OPENING. In later lines of a comment, only capitalised words count."""
     before = False  # the line above is a comment
     for number, line in enumerate(lines, 1):
         whole = re.match(rf"\s*{marker}+!?<?\s*(.*)", line)

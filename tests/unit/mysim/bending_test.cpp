@@ -141,7 +141,7 @@ TEST(Bending, TangentIsTheSlopeOfTheForceAndTakesNoEnergy) {
 
 TEST(Bending, FastestVibrationIsThatOfTheSheet) {
   // For the wave that alternates from particle to particle, x_uu = -4 / p^2 x and x_uv^2 = (4 / p q)^2 x^2, hence omega
-  // = (4 / p^2 + 4 / q^2) sqrt(B / rho). Unstretched springs of a flat sheet do not resist it.
+  // = (4 / p^2 + 4 / q^2) sqrt(B / rho). Unstretched springs of a flat sheet do not resist this wave.
   Scene scene = small_scene(fmt::format(
       "[grid]\nsize = [40, 30]\norigin = [0, 0, 0]\nu = [0.39, 0, 0]\nv = [0, 0.29, 0]\nmass = 0.024\nbending = {}\n"
       "[grid.stiffness]\nstructural = 1e-3\n",

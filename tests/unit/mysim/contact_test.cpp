@@ -114,7 +114,8 @@ TEST(Contact, SlidesAtTheAccelerationThatCoulombLeaves) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-4, t_end, 10});
     const double path = std::acos(t.x.back()(1, 0)) - angle;
-    // The slope and the centripetal relief change by path / R (1.2 %), times factors of about 2 / tan. The first-order
+    // Along the path the slope changes by path / R (1.2 %), and the normal force decreases as the particle gains speed
+    // on the curved surface. Together they change the path by about path / R times 2 / tan(angle). The first-order
     // error in h is 0.4 %.
     EXPECT_NEAR(path / expected, 1, 0.05);
   }
@@ -428,8 +429,8 @@ TEST(SeveralSpheres, ALedgerClosesWithWhatMovingSpheresGave) {
   const Scene scene = on_moving_sphere(0.5, {0, 0.03, 0}, 0.5);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // In each resting step, the kick of gravity works along its own path: m g (g h t / 2) over 1 s. The sphere's motion
-    // contributes as much.
+    // In each resting step, gravity does work along the displacement by its own kick: m g (g h t / 2) over 1 s. The
+    // sphere's motion contributes as much.
     EXPECT_LT(imbalance(s, scene, {1e-3, 1, 20}), 2 * 9.81 * 9.81 * 1e-3 / 2);
   }
 }

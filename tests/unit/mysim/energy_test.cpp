@@ -213,8 +213,8 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
     const double coarse = error(2e-3), fine = error(1e-3);
     fmt::print("sliding block, {:18} {:.3g} J at 2 ms, {:.3g} J at 1 ms\n", s.name, coarse, fine);
     const bool new_velocity = s.name == "symplectic-euler" || s.name == "implicit-euler" || s.name == "xpbd";
-    // These rules apply friction m g mu along h v' instead of h (v + v') / 2. In total they take less energy, by m g mu
-    // h v / 2 with the initial v = 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and
+    // In these rules friction m g mu acts along h v' instead of h (v + v') / 2. In total it takes m g mu h v / 2 less
+    // energy, with the initial v = 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and
     // by the ball's curvature, which changes the height by (v h)^2 / 2 R in each step, where v^2 is on average a third
     // of its initial value.
     const double lag = new_velocity ? 1.5 * 9.81 * 0.3 * 2 / 2 * 1e-3 : 0;
@@ -259,7 +259,7 @@ TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
   } mute(inferred);
   simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, mute);
   for (size_t i = 0; i < inferred.rows().size(); ++i) {
-    EXPECT_NEAR(inferred.rows()[i].balance(), inferred.rows()[0].balance(), 16 * eps * 40);    // by definition, 40 J
+    EXPECT_NEAR(inferred.rows()[i].balance(), inferred.rows()[0].balance(), 16 * eps * 40);    // exact, up to 40 J
     EXPECT_NEAR(inferred.rows()[i].contact, reported.rows()[i].contact, 2 * 9.81 * 2 * 1e-4);  // path of a step
   }
 }
@@ -335,7 +335,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, monitor);
       if (std::isinf(s.limit(200, 2))) {
         // Rules that solve the whole step are stable. One Gauss-Seidel pass leaves residuals in springs, whose energy
-        // may look like a blow-up, but the cloth does not move further than by its fall and its size.
+        // may look like a blow-up, but the cloth moves no further than it falls, plus its size.
         if (s.evaluations == 0) {
           EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
         }

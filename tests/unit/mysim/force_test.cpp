@@ -93,8 +93,8 @@ TEST(Tangents, OfSpringsIsTheSlopeOfTheForce) {
       down.state.x -= step * d;
       const Springs& springs = *net.model.find<Springs>();
       const Points slope_there = (force_of(springs, up) - force_of(springs, down)) / (2 * step);
-      // The error is eps^(2/3) times a sixth of the force's third derivative, with five springs of 15 k r / L^3 times
-      // |d|^3 at 0.3 m
+      // The error is eps^(2/3) times a sixth of the force's third derivative, which is 15 k r / L^3 times |d|^3 for
+      // each of five springs, with L of at least 0.3 m.
       EXPECT_LT((product<Springs>(net, Curvature::exact, 1, 0, d) + slope_there).cwiseAbs().maxCoeff(),
                 1e6 * std::pow(eps, 2.0 / 3));
     }

@@ -100,7 +100,7 @@ TEST(GoldenProjections, OfImplicitRulesAgreeWithTheTable) {
     const std::vector<std::string> words = split(line, ',');
     const auto found = computed.find(words.at(0) + ',' + words.at(1));
     ASSERT_NE(found, computed.end()) << line;
-    // Solvers stop at 1e-12 of their residual. WebAssembly has the same tolerance of 1e-7 m (lab_slow_test.cpp).
+    // Solvers stop at a relative residual of 1e-12. The test of WebAssembly (lab_slow_test.cpp) has the same tolerance.
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(found->second[j], std::stod(words.at(2 + j)), 1e-7) << line;
     ++compared;
   }

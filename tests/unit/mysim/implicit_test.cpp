@@ -66,8 +66,8 @@ TEST(IncrementalPotential, GradientIsTheSlopeOfTheValue) {
       const Points d = p.direction(1);
       const double up = p.potential.value(p.u + difference_step * d), noise = p.potential.rounding(),
                    down = p.potential.value(p.u - difference_step * d);
-      // The bound is (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in
-      // force_test.cpp) times eps^(2/3) times the cube of the direction's size, plus the rounding of the values.
+      // The bound is eps^(2/3) times a sixth of the third derivative (five springs of 3 k r / L^2 at each particle, as
+      // in force_test.cpp) times the cube of the direction's size, plus the rounding of the values.
       EXPECT_NEAR(dot(g, d), (up - down) / (2 * difference_step),
                   6000 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3) + noise / difference_step);
     }
@@ -84,8 +84,8 @@ TEST(IncrementalPotential, MatrixIsTheSlopeOfTheGradient) {
       p.potential.apply(d, product);
       p.potential.gradient(p.u + difference_step * d, up);
       p.potential.gradient(p.u - difference_step * d, down);
-      // The bound is (a sixth of the fourth derivative of the energy, with five springs of 15 k r / L^3 at 0.3 m, plus
-      // the gradients of about 1e3 N) times eps^(2/3).
+      // The bound is eps^(2/3) times the sum of a sixth of the energy's fourth derivative (five springs of 15 k r /
+      // L^3, with L of at least 0.3 m) and the gradients of about 1e3 N.
       EXPECT_LT((product - (up - down) / (2 * difference_step)).cwiseAbs().maxCoeff(),
                 1e5 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3));
     }

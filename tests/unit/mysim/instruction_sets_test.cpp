@@ -7,8 +7,8 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-/// Objects compiled for one instruction set share no function with others, because the linker could pick code for a
-/// newer machine as the common version. Each object contains the table of its functions.
+/// Objects compiled for one instruction set must share no function with others, because the linker keeps only one
+/// version, which might be the one for a newer machine. Each object must contain the table of its functions.
 TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
   std::istringstream objects(CROSSCHECK_KERNEL_OBJECTS);
   int count = 0;

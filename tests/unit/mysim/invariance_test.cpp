@@ -63,7 +63,7 @@ TEST(Runs, KeepAngularMomentumWhereTheRuleIsSymplecticAndToItsOrderElsewhere) {
       const Scene scene = scene_of(free_network(seed, false));
       const double h = 1e-3;
       const double coarse = changes_in(s, scene, {h, 0.5, 10}).angular;
-      // These symplectic rules alternate drifts along v and kicks by central forces, which both conserve x x m v.
+      // These symplectic rules alternate drifts along v and kicks by central forces. Both conserve angular momentum.
       // Residual forces act with lever arms of up to 5 m.
       const double kept = 5 * (6 * force_left(s, h) * 0.5 + 500 * 6 * 2 * 20 * eps);
       if (s.symplectic) {

@@ -442,8 +442,8 @@ class TemporaryFolders : public testing_tools::InFolder {
   std::optional<std::string> before_;
 };
 
-/// Creates a temporary folder and two child processes, each of which owns another one: a worker, and a process that
-/// leaves the session.
+/// Creates a temporary folder and two child processes, each with a temporary folder of its own: a worker, and a process
+/// that leaves the session.
 int work_with_children() {
   const TemporaryFolder own("own");
   for (const bool leaves : {false, true})

@@ -25,7 +25,7 @@ struct NamedRule {
   const Stepper stepper;
   ContactRule contact;
 };
-/// Every stepper with contact on whole steps, and the steppers that can locate events once more with located events.
+/// Every stepper with contact on whole steps and, if it can locate events, also with located events.
 std::vector<NamedRule> rules() {
   std::vector<NamedRule> list;
   for (const Stepper& s : fixed_steppers()) {
@@ -80,7 +80,7 @@ TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
               sphere =
                   small_scene(text(fmt::format("[sphere]\ncentre = [0, {0}, 0]\nradius = {1}\n", -radius, radius)));
   for (const NamedRule& rule : rules()) {
-    if (rule.stepper.evaluations == 0) continue;  // implicit rules solve relative to the largest coordinate
+    if (rule.stepper.evaluations == 0) continue;  // these are accurate relative to the largest coordinate only
     SCOPED_TRACE(rule.name);
     const Trajectory a = path_of(rule, plane, {1e-3, 1, 20}), b = path_of(rule, sphere, {1e-3, 1, 20});
     // rounding errors of coordinates of 1e7 m, plus the sphere's drop below the plane

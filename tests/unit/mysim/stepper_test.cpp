@@ -56,7 +56,7 @@ TEST(Steppers, EvaluationsAndStepsAreCounted) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.01, 0.5, 10}, r);
       EXPECT_EQ(out.steps, 50);
       if (s.evaluations > 0)
-        // A rule that reuses its last stage must evaluate it at the start of a fixed step.
+        // A rule that reuses the last stage of the previous step must evaluate it again if steps are fixed.
         EXPECT_EQ(out.evaluations, 50 * (s.evaluations + stepper(s.name).adaptive));
       else
         EXPECT_GE(out.evaluations, 2 * 50);  // forces at the start and end of the solve
@@ -185,7 +185,7 @@ struct Fate {
   Verdict verdict;
   double growth;  // excursions in the last tenth divided by those in the first tenth
 };
-/// Runs for h * steps seconds. `steps` must be a multiple of the ten samples, which would otherwise shorten them.
+/// Runs for h * steps seconds. `steps` must be a multiple of ten: otherwise steps would be shorter, to end at samples.
 Fate try_out(const Stepper& s, const Oscillation& o, double h, int steps) {
   Scene scene = hanging(o.omega, o.gamma);
   const double rest = scene.start.x(1, 1);
