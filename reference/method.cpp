@@ -169,7 +169,7 @@ Method find_method(const std::string& text) {
     }
     for (const std::string& full : row.full_names()) known.push_back(full);
   }
-  // compares short names, because "leapfrg" is closer to them
+  // compares short names with text that has no prefix: "leapfrg" is closer to "leapfrog" than to "mysim/leapfrog"
   std::vector<std::string> names = known;
   if (parts[0].find('/') == std::string::npos)
     for (std::string& full : names) full = short_name(full);
@@ -232,11 +232,11 @@ namespace {
 
 /// Observes free particles between the states on which verdicts are based.
 ///
-/// Largest speed: the verdict's differences over two states hide a vibration that reverses in every step. A stable
-/// vibration near its limit may do so, which is no failure.
+/// Largest speed: the verdict's differences over two states cannot show a vibration that reverses in every step. Such a
+/// vibration may be stable, if the step is near the rule's limit, and is then no failure.
 ///
-/// Passages through a sphere: both ends are outside, and the chord is deeper inside than the path may deviate from it:
-/// tau |dv| / 4, if the velocity changes by dv within a time tau, at one instant or evenly.
+/// Passages through a sphere: both ends of a step are outside, and its chord is deeper inside than the path may deviate
+/// from it: tau |dv| / 4, if the velocity changes by dv within a time tau, at one instant or evenly.
 class StepObserver : public Observer {
  public:
   explicit StepObserver(const Scene& scene)

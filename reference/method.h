@@ -15,7 +15,7 @@
 
 namespace crosscheck {
 
-// Code that depends on a method's kind reads its family, never its name; adding an engine is adding a row.
+// Code that depends on a method's kind reads its family, never its name, so that a new engine needs only a row.
 
 /// A family's role in the comparison: the engine under test, its peers, independent integrators of the separately
 /// written right-hand side, reference solutions, and the user's own programs and trajectories.
@@ -136,8 +136,8 @@ const Stepper* stepper_of(const Method& method);
 std::string rule_of(const Method& method);
 
 /// True if two methods follow the same rule on scenes with the model's ingredients, so that they must agree to rounding
-/// without contact and differing laws; empty if unknown. A rule identified from runs holds for the ingredients of these
-/// runs, and for other ingredients only if the engine is built in, because such engines declare differing laws.
+/// unless there is contact or a law differs; empty if unknown. A rule identified from runs holds for the ingredients of
+/// these runs, and for other ingredients only if the engine is built in, because such engines declare differing laws.
 std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model);
 
 /// `list`: "a,b,c".

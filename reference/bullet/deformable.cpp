@@ -385,7 +385,7 @@ class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld>
     world_->stepSimulation(static_cast<btScalar>(h_), 0);
     soft_body_->place_pins(t_next);
     for (int i = 0; i < body().m_nodes.size() && !speed_limit_; ++i)
-      // the limit sets a speed exactly, which drag and contact may then reduce slightly
+      // Bullet reduces a higher speed to exactly the limit; drag and contact may then reduce it slightly further
       if (body().m_nodes[i].m_im > 0 && !(body().m_nodes[i].m_v.length() < 0.999 * limit)) speed_limit_ = limit;
   }
 
@@ -401,7 +401,7 @@ class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld>
 
  private:
   bool implicit_;
-  std::optional<double> speed_limit_;  // m/s, if Bullet limited a speed to the body's box over the step
+  std::optional<double> speed_limit_;  // m/s, set once Bullet has limited a speed
   BodySolver body_solver_;
   btDeformableMultiBodyConstraintSolver solver_;
   std::unique_ptr<DeformableForces> forces_;
@@ -426,7 +426,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
-    // a failed run stays a failure; a successful run under Bullet's speed limit solved another problem
+    // failed runs keep their verdict; a successful run with a limited speed has solved a different problem
     if (!settings.defaults.margin)
       throw Unsupported(fmt::format(
           "Bullet's deformable world limits speeds to the body's box over the step, here to {:.3g} m/s", *limit));

@@ -103,8 +103,8 @@ class DeformableForces {
 struct DeformableSettings {
   bool implicit = false;
   bool shipped = false;   // implicit: Bullet's own spring force, with indefinite second derivatives
-  bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual instead of Bullet's default,
-                          // its round-off
+  bool tight = false;     // implicit: conjugate gradients stop at 1e-28 of the squared residual instead of Bullet's
+                          // 2.2e-16
   bool projected = true;  // implicit: setUseProjection(true), without which the world freezes
   double voxel = 0.005;   // m, of the distance field; Bullet's default
   BulletDefaults defaults;

@@ -46,7 +46,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     cfg.piterations = settings.iterations;
     cfg.viterations = 0;
     cfg.kDP = static_cast<btScalar>(damping_of_drag(*rate, h_));
-    cfg.kKHR = btScalar(0.1);  // contacts bounce at 1; at 0, links pull nodes into the sphere
+    cfg.kKHR = btScalar(0.1);  // at 1, contacts bounce; at 0, links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     add_to_world();

@@ -89,7 +89,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
   // made large
   if (!defaults.margin)
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
-  bt_body_->updateBounds();  // until now with the constructor's margin, which would limit speeds in the first step
+  bt_body_->updateBounds();  // with the constructor's margin, bounds would limit speeds in the first step
   bt_body_->m_cfg.kDF = 1;
   bt_body_->setGravityFactor(static_cast<btScalar>(defaults.gravity_factor));
   if (defaults.kLST) {

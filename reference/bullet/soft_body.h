@@ -35,7 +35,7 @@ struct CollisionPipeline {
 /// or does not support the scene (first order, restitution). Call it before building a world.
 void require_supported(const Scene& scene, bool may_hang = false);
 
-/// Bullet's defaults that are kept, or settings against its advice, to demonstrate their failure.
+/// Options that keep a harmful default of Bullet, or ignore its advice, to demonstrate the effect.
 struct BulletDefaults {
   bool rest = false;           // the first step overwrites rest lengths by current lengths
   bool margin = false;         // 0.25 m
@@ -199,7 +199,7 @@ class SoftBodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // for rigid bodies only; the obstacles are fixed or kinematic
   }
 
-  /// Prescribed positions of pins and surfaces, at a time at which no round frequency has returned them to the start.
+  /// Prescribed positions of pins and surfaces, at a time at which no motion of a round frequency is back at its start.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // restores the nodes at the end

@@ -33,7 +33,7 @@ struct Certificate {
 std::string summary_of(const Certificate& certificate);
 
 /// Compares the engine's read-back with the scene. Quantities that the engine does not report are marked as such in
-/// their rows. Ingredients that the scene lacks and the engine does not deny share a row.
+/// their rows. Ingredients that the scene lacks, and whose absence the engine does not report, share a row.
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome);
 
 }  // namespace crosscheck

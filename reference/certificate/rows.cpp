@@ -69,7 +69,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     for (const int pin : particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
     const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
     const std::string found = fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off);
-    // one digit is lost in differences of lengths that are stretched by a tenth, another in the sum of a dozen springs
+    // differences of lengths that are stretched by a tenth lose one digit, and sums of a dozen springs lose another
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
       w.row(quantity, requested, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
@@ -281,7 +281,7 @@ void certify_drag(const Drag& drag, const Particles& particles, const Readback& 
         worst <= std::max(w.tolerance(), 1e-9) * high);
 }
 
-/// Rows for ingredients that the scene lacks and the engine has, and one row for those that the engine does not deny.
+/// Rows for ingredients that only the engine has, and one row for those whose absence it does not report.
 void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Model& model = scene.model;
   // tolerates rounding of a position in each step, and of 1 - exp(-gamma h)
@@ -298,7 +298,7 @@ void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w)
       {"drag", !model.find<Drag>() && !r.drag},
       {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
       {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
-      {"spheres", !spheres && !r.spheres},  // engines written before planes existed need not deny them
+      {"spheres", !spheres && !r.spheres},  // planes are not listed: older engines cannot report their absence
       {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
       {"motion of spheres", spheres && !spheres->moving() && !r.later},
   };

@@ -130,7 +130,7 @@ double supported_damping(const Scene& scene, int iterations) {
   for (size_t i = 0; i < scene.x.size(); ++i) {
     if (scene.pinned[i]) continue;
     const double gamma = scene.drag[i] / scene.mass[i];
-    // gammas recovered from c = m gamma agree up to a few roundings
+    // rates recovered from c = m gamma differ by up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate)
       unsupported("drag that differs between particles: Jolt has one damping (1/s) for a body");
     if (!rate) rate = gamma;
@@ -161,9 +161,9 @@ Vec middle_of(const Scene& scene) {
   return {float((low[0] + high[0]) / 2), float((low[1] + high[1]) / 2), float((low[2] + high[2]) / 2)};
 }
 
-/// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
-/// origin, where small displacements are not rounded away, to a held vertex. The compliance is 1e6 w d^2, so the free
-/// vertex moves by w d^2 k (L - r) to within a millionth.
+/// Spring forces (N) at x as Jolt computes them. Each spring is measured separately, in one step d, between a held
+/// vertex and a free vertex at the origin, where small displacements are not rounded away. The compliance is 1e6 w d^2,
+/// so the free vertex moves by w d^2 k (L - r) to within a millionth.
 std::vector<Vec> spring_forces(const Scene& scene, const std::vector<Vec>& x) {
   std::vector<Vec> forces(x.size(), Vec{});
   constexpr double d = 1. / 1024;  // s
@@ -203,7 +203,7 @@ class JoltWorld : public World {
   }
 
   void step(double t) override {
-    // on free particles, gravity and wind are one acceleration
+    // gravity and wind give all free particles the same acceleration
     if (scene_.wind) body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(t)));
     const double h = scene_.step;
     // a held vertex is moved by setting its velocity; its position is set too, because n sub-steps accumulate n
@@ -267,8 +267,8 @@ class JoltWorld : public World {
                   {"iterations", std::to_string(iterations)},
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
-    // A step begins above the ball, on the plane that was tangent where the previous step began. The curvature below
-    // that plane subtracts another half of v^2 / R from the depth that determines friction.
+    // A step ends on the plane that was tangent at its beginning, so the next step begins above the ball. This gap
+    // subtracts another half of v^2 / R from the depth that determines friction.
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(

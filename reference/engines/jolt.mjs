@@ -88,9 +88,9 @@ function edgesLike({ motion }, wanted) {
   return wanted.map(({ a, b }) => found.get(`${a} ${b}`).shift());
 }
 
-/// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
-/// origin, where small displacements are not rounded away, to a held vertex. The compliance is 1e6 w d^2, so the free
-/// vertex moves by w d^2 k (L - r) to within a millionth.
+/// Spring forces (N) at x as Jolt computes them. Each spring is measured separately, in one step d, between a held
+/// vertex and a free vertex at the origin, where small displacements are not rounded away. The compliance is 1e6 w d^2,
+/// so the free vertex moves by w d^2 k (L - r) to within a millionth.
 function springForces(world, springs, x) {
   const forces = new Float64Array(x.length), d = 2 ** -10, v = [0, 0, 0];
   world.setGravity([0, 0, 0]);
@@ -162,8 +162,8 @@ serve(description, (scene) => {
       probe.wind = Float64Array.from(probe.x, (_, e) => readback.mass[(e / 3) | 0] * extra[e % 3]);
       [body, ...balls].forEach((one) => world.remove(one));
       probe.springs = springForces(world, springs, probe.x);
-      // a step begins above the ball, on an older tangent plane, which subtracts another half of v^2 / R from the depth
-      // that determines friction
+      // a step ends on the plane that was tangent at its beginning, so the next step begins above the ball; this gap
+      // subtracts another half of v^2 / R from the depth that determines friction
       const law = 'friction: on a ball of radius R it is mu m (g_n - 3/2 v^2 / R) with n = 1, not mu m (g_n - v^2 / R)';
       return { force_evaluations: Math.round(scene.times.at(-1) / h) * iterations * 2, readback,
                different_law: scene.spheres.some((ball) => ball.friction > 0) ? [law] : [] };

@@ -129,7 +129,8 @@ class MujocoWorld : public World {
         xml += join("<geom type='sphere' solmix='0' contype='1' conaffinity='0' friction='0 0 0' size='", bead, "'/>");
       xml += "</body>";
     }
-    // half an oscillation with damping ratio z returns e = exp(-pi z / sqrt(1 - z^2)); two steps resolve 1/omega
+    // half an oscillation with damping ratio z leaves e = exp(-pi z / sqrt(1 - z^2)) of the speed; 1/omega is at least
+    // two steps
     const auto law = [this](double friction, double e) {
       const double l = std::log(e) / pi, z = e > 0 ? -l / std::sqrt(1 + l * l) : 1;
       return join("' contype='0' conaffinity='1' friction='", friction, " 0 0' solref='",

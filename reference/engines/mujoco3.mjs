@@ -35,8 +35,8 @@ function flexes({ list }) {
   }).join('');
 }
 
-/// The scene in MuJoCo's XML. Particles are balls with the smallest margin as radius; obstacles contain the rest of
-/// each margin.
+/// The scene in MuJoCo's XML. Particles are balls whose radius is the smallest margin; the rest of each margin is added
+/// to the obstacle.
 function modelText(scene, { integrator, eulerdamp, flex, timeconst }) {
   const { x, mass, drag, pinned, springs, dashpots, rods } = scene, obstacles = [...scene.spheres, ...scene.planes];
   const size = Math.min(...obstacles.map(({ margin }) => margin)) || scene.task.size / 1000;

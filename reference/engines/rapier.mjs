@@ -68,8 +68,8 @@ function softBody(world, scene, springs) {
   return body;
 }
 
-/// Colliders of the obstacles, read back. Particles are balls with the smallest margin as radius; obstacles contain the
-/// rest of each margin.
+/// Colliders of the obstacles, read back. Particles are balls whose radius is the smallest margin; the rest of each
+/// margin is added to the obstacle.
 function addContacts(world, scene, bodies) {
   const all = [...scene.spheres, ...scene.planes], { Max } = RAPIER.CoefficientCombineRule, { ColliderDesc } = RAPIER;
   const size = Math.min(...all.map((one) => one.margin)) || scene.task.size / 1000;

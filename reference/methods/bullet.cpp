@@ -35,7 +35,8 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
-  // on one spring, the single Newton step of these worlds is backward Euler, and so is a free step corrected by a link
+  // on one spring, the single Newton step of these worlds and the link correction after a free step are both backward
+  // Euler
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
   return method;
 }

@@ -26,7 +26,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   ContactRule contact = ContactRule::coulomb;
   Execution execution;
   Stepper rule = stepper;
-  std::string same_as(stepper.name);  // without freezing to spheres, which each run reports as a different law
+  std::string same_as(stepper.name);  // without +sticky, which each run reports as a different law
   const std::string name = fmt::format("mysim/{}", stepper.name);
   std::string path_option;  // the option that selected the path
   const auto choose = [&](const std::string& option, ExecutionPath path) {
@@ -64,7 +64,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                                 stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
   }
   if (contact == ContactRule::events) {
-    same_as += "+events";  // with contact, the rule with events is not identical to round-off
+    same_as += "+events";  // with contact, the rules with and without events differ by more than round-off
     if (execution.path == ExecutionPath::single_precision)
       throw InputError(
           fmt::format("method {}: +events locates contact in double precision; expected it without +single", name));

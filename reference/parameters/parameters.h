@@ -48,7 +48,7 @@ struct NumberRule {
   bool (*valid)(double) = nullptr;  // null: any finite number >= 0
   /// Relative error of the scene's number divided by that of the engine's number; null: 1.
   double (*condition)(double, const NumberContext&) = nullptr;
-  bool one_by_one = false;  // springs are solved one after another: in a network valid for short steps only
+  bool one_by_one = false;  // solves springs one after another: in a network, valid for short steps only
 };
 
 /// k h^2 / mu (dimensionless) up to which a network whose springs are solved one after another has the requested

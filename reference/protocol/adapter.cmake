@@ -1,4 +1,4 @@
-# For adapters built against a tree of their engine: the target mysim is the libraries that crosscheck was built with.
+# Provides the target mysim, crosscheck's own libraries, to adapters that are built against a tree of their engine.
 #   CROSSCHECK_LIBRARIES   folder of the libraries: a build folder, or lib/crosscheck of an installation
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

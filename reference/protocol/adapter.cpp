@@ -18,7 +18,7 @@ int run_as_program(int argc, char** argv, const std::function<Engine(const std::
     const EngineTask task = read_scene_json(argv[1]);
     const std::filesystem::path folder = argv[2];
     Recorder recorder;
-    // end a diverged run here, as in this process, instead of stepping the engine through non-finite states
+    // end a diverged run here, as for built-in engines, instead of stepping the engine through non-finite states
     DivergenceMonitor monitor(task.scene, task.run);
     MonitoredObservers observers(monitor, {&recorder});
     const Outcome out = engine_of(task.options)(task.scene, task.run, observers);

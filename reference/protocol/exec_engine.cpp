@@ -148,7 +148,7 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
 
 /// Maximum size of run.json in bytes. A number with its blank and comma takes 26. A particle has 27 numbers (mass, pin,
 /// drag, two vectors of the start, five of the probe, one of later positions); a link has 4, plus 60 bytes for its
-/// keys: 702 and 164 bytes. Three times that leaves room for line breaks, and a mebibyte for texts.
+/// keys: 702 and 164 bytes. Three times these sizes plus a mebibyte leaves room for line breaks and texts.
 std::uintmax_t largest_run_json(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();
@@ -189,9 +189,9 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) of the pin's
-// initial position, its displacement and their sum, as for the first frame. A program that accumulates its steps also
-// loses half an ulp of the time per step, during which the pin moves along its path.
+// Allowed deviation, as for the first frame: sixteen half ulps each of the pin's initial position, its displacement and
+// their sum. Half an ulp is 2^-53, or 2^-24 if the engine's precision is single or unknown. A program that adds up its
+// steps also loses half an ulp of the time per step, during which the pin moves along its path.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
   const Particles& particles = scene.model.particles;
   const TimeGrid grid = time_grid(run);
@@ -222,7 +222,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
 }
 
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& asked, Observer& observer) {
-  // the program writes every state on which verdicts are based, as many as other engines do
+  // requests every state on which verdicts are based, so that the program is judged like other engines
   const TimeGrid grid = time_grid(asked);
   const int per_sample =
       observer.between_samples() ? grid.steps_per_sample / verdict_stride(grid, scene.model.particles.size()) : 1;

@@ -16,8 +16,8 @@ static_assert(std::endian::native == std::endian::little, "the data are written 
 std::string npy_header(long frames, long particles) {
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frames, particles);
-  // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. The total is 128: the words
-  // alone exceed 64, which leaves room for 57 digits.
+  // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. The words alone exceed 64
+  // bytes, so the total is 128, which leaves room for 57 digits.
   header.resize((10 + header.size() + 1 + 63) / 64 * 64 - 10 - 1, ' ');
   header += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);
@@ -45,7 +45,7 @@ struct Header {
   std::vector<long> shape;
 };
 
-/// Text from the value of 'key': in the header's dictionary to the dictionary's end, without leading blanks.
+/// Text of the header's dictionary from the value of `key` to the end, without leading blanks.
 std::optional<std::string> dictionary_value(const std::string& dictionary, const std::string& key) {
   size_t at = dictionary.find("'" + key + "'");
   if (at == std::string::npos || (at = dictionary.find(':', at)) == std::string::npos) return std::nullopt;

@@ -118,8 +118,8 @@ class ErrorOfTwoRoutes {
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
   /// Error of the first route at sample i, m (or J); call it with increasing i. It is at least the route's own
   /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
-  /// same way. If the second route has order 1, its error is by far the larger one and of another kind: the larger of
-  /// the distance and its last change then replaces the sum.
+  /// same way. If the second route has order 1, its error dominates and is of another kind: the sum is then replaced by
+  /// the larger of the distance and the second route's last change.
   double error_up_to(size_t i) {
     const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
                  between = apart_(one_.fine, other_.fine, i);
@@ -359,7 +359,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
       const Outcome out = run_event_driven(scene, {scene.step, shorter.duration, shorter.samples, tolerance}, recorder);
       if (out.verdict == Verdict::ok) study.step = out.step;
     } catch (const Unsupported&) {
-      if (recorder.trajectory.frames() == 0) throw;  // no frame: the scene is refused; otherwise only a later state
+      if (recorder.trajectory.frames() == 0) throw;  // no frames: the scene itself is refused, not only a later state
     }
     *path = RoutePath{std::move(recorder.trajectory)};
     const int end = path->frames() - 1;
@@ -396,8 +396,8 @@ std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const 
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
 }
 
-/// The two finer paths extrapolated to a step of 0, for an error of order 2. If that order is visible, they then differ
-/// by far less than the error of the fine path; otherwise by as much as before, or more.
+/// The two finer paths, extrapolated to a step of 0 for an error of order 2. If the error is of this order, these paths
+/// differ by far less than the error of the fine path; otherwise by as much as before, or more.
 RefinementStudy extrapolated(RefinementStudy study) {
   const auto extrapolate = [](RoutePath& fine, const RoutePath& coarse) {
     for (size_t i = 0; i < std::min(fine.x.size(), coarse.x.size()); ++i) fine.x[i] += (fine.x[i] - coarse.x[i]) / 3;

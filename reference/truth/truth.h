@@ -18,7 +18,7 @@ struct Truth {
   Trajectory trajectory;
   double error_bar;                // m, for the RMS position error at any sample
   std::vector<double> error_bars;  // m, up to each sample; empty if constant
-  // computed by mysim's own contact rule: the distance of other rules is a difference, not an error
+  // computed by mysim's own contact rule, so that the distance of other rules is a difference, not an error
   bool under_contact_rule = false;
   double until = INFINITY;  // s, valid up to this time, at which the samples end
   // J, up to each sample: energy taken by contact (friction and impacts, minus the work of moving spheres) and its
@@ -60,12 +60,13 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
 /// The path is that of mysim's leapfrog+events at the last of three steps: the scene's step (at most h omega = 1.4), a
 /// half and a quarter of it. It is compared with Moreau's time stepping on independent equations
-/// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32 of that step. The latter is of order 1: the bar is the
-/// largest of the difference of the two, of its last change, and of the first route's estimate. The truth ends when the
-/// bar exceeds a third of the scene's tolerance or a hundredth of the motion: when the motion becomes sensitive, it is
-/// undecidable which of the two rules is right. It also ends with the scene's window. The energy taken by contact is
-/// the energy missing from the balance along the path; its bar is found in the same way. Returns nullopt if a route
-/// fails, if a particle touches two surfaces at once, or if the truth would end before or at the first touch.
+/// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32 of that step. Because the time stepping is of order 1,
+/// the bar is the largest of the distance between the routes, the last change of the second, and the estimate of the
+/// first. The truth ends when the bar exceeds a third of the scene's tolerance or a hundredth of the motion: once the
+/// motion is sensitive, it is undecidable which of the two rules is right. It also ends with the scene's window. The
+/// energy taken by contact is the energy missing from the balance along the path; its bar is found in the same way.
+/// Returns nullopt if a route fails, if a particle touches two surfaces at once, or if the truth would end before or at
+/// the first touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 
 // Limit of mysim's own contact rule as the step approaches 0.

@@ -31,7 +31,7 @@ struct ExactSolution {
 ///   - particles between perpendicular planes without friction, or over a single plane with friction along a straight
 ///     line: each coordinate falls and bounces independently;
 ///   - one particle that slides with friction over a ball, from a start with nonzero speed, until it flies off.
-/// Springs follow Hooke's law and must never turn over, which bounds for all times ensure.
+/// Springs follow Hooke's law and must never turn over; bounds that hold for all times ensure this.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
 /// True if the model has no terms but those of the types `Allowed`.

@@ -186,7 +186,7 @@ class EventDrivenWorld : public World {
       }
       const Vec3 a = acceleration(rate, i) - ball.acceleration, n = normal(y, i, p.ball), v = seen_from(y, i, p.ball);
       const double pressed = push(y, i, p.ball, a), friction = ball.friction;
-      // friction continues beyond a stop, which ends the step: the right-hand side stays smooth
+      // friction continues beyond a stop, so that the right-hand side stays smooth; the step then ends at the stop
       Vec3 direction = along(v, n);
       const double size = direction.norm();
       direction = size > 0 ? Vec3(direction / size * (direction.dot(p.forward) < 0 ? -1 : 1)) : p.forward;
@@ -239,14 +239,14 @@ class EventDrivenWorld : public World {
     const Ball& b = balls_[ball];
     const double scale = b.size + b.centre.norm() + (b.flat() ? place(y, i).norm() : 0),
                  rounding = surface_rounding * scale, above = height(y, i, ball) + rounding;
-    if (b.flat()) {  // enters and leaves within the step: lowest point of the parabola with the speeds at both ends
+    if (b.flat()) {  // for entering and leaving in one step: lowest point of the parabola with the speeds at both ends
       const double down = (speed(before, i) - b.velocity_before).dot(b.up), rise = seen_from(y, i, ball).dot(b.up);
       if (above < 0 || !(down < 0 && rise > 0)) return above;
       const double begin = b.up.dot(place(before, i) - b.centre_before);
       const double lowest = begin - down * down * (now_ - begun_) / (2 * (rise - down)) + rounding;
       return begin > 0 ? std::min(above, lowest) : above;
     }
-    // enters and leaves within the step: height of the chord's nearest point, for steps far shorter than the radius
+    // for entering and leaving in one step: nearest point of the chord, if the step is far shorter than the radius
     const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
     if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
         !(from.norm() > b.radius))

@@ -27,8 +27,8 @@ Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer)
 Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
 /// the observed times. Its estimate compares different numbers of stages, and so also detects errors due to explicit
-/// time dependence alone. Both rules of Fehlberg's 7(8) pair give this dependence the same weights: that pair follows a
-/// moved pin with an error of 1e-9 of the scene's size under a tolerance of 1e-13.
+/// time dependence alone. Both rules of Fehlberg's 7(8) pair weight this dependence alike, so that pair follows a moved
+/// pin with an error of 1e-9 of the scene's size despite a tolerance of 1e-13.
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);
 /// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
 /// package's name if the suite was built without it.
