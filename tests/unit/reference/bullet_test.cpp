@@ -262,7 +262,7 @@ TEST(BulletImplicit, TightIsOneNewtonStepOfBackwardEuler) {
 
 TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
   // Conjugate gradients stop at a squared residual of 2.2e-16 of the initial one, which leaves 1.5e-8 of each step's
-  // change of velocity. Over the changes of a run, some m/s for 1.5 s, this is about 1e-8 m.
+  // change of velocity. A run of 1.5 s changes velocities by some m/s, so positions are off by about 1e-8 m.
   for (const Scene& scene : {shortened("chain", 1. / 240), cloth(""), cloth(drag)}) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", scene),
                  loose = distance_to_newton_step("bullet/deformable-implicit", scene);

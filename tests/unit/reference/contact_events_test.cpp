@@ -140,8 +140,9 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
       ASSERT_TRUE(exact);
       const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
       const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
-      // Each of a few hundred steps adds some roundings of 1.3 m, and of the impact time at 2.4 m/s. Newton's method of
-      // implicit rules may leave 1e-10 of the force m v / h at 2 m/s: 1e-10 g t^2 times v / (h g).
+      // Each of a few hundred steps rounds positions of 1.3 m and an impact time at 2.4 m/s. Newton's method of
+      // implicit rules may leave 1e-10 of the force m v / h at 2 m/s, which displaces the particle by 1e-10 g t^2 times
+      // v / (h g).
       const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
       for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
       EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
@@ -242,7 +243,7 @@ TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
         if (friction == 0) {
           expect_second_order(rule, orders(error, 5e-3));
         } else {
-          // The instant in a step at which friction lets go changes errors by some per cent: use four halvings
+          // Errors vary by some per cent with the instant in a step at which friction lets go: use four halvings
           // together.
           EXPECT_NEAR(slope(error(2.5e-3), error(2.5e-3 / 16)) / 4, 2, 0.1);
         }
@@ -436,7 +437,8 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
         // the finest run's error is 1/2500 of the last one's
         expect_second_order(rule, orders(error, 1e-2));
       } else if (friction == 0.1) {
-        // The particle sticks and slips. The instant in a step at which it lets go determines the constant of h^2.
+        // The particle sticks and slips. The constant of h^2 depends on the instant in a step at which the particle
+        // lets go.
         EXPECT_LT(error(1.25e-3), 2e-6);
         EXPECT_GT(sup_rms(trajectory_of(stepper(rule), scene, {1.25e-3, 0.8, 8}), finest), 5e-5);
       } else {  // the particle is carried along the sphere's known path
@@ -492,8 +494,9 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       Recorder fused, general;
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
-      // The paths differ by rounding, and by h^3 for each particle that leaves a ball in a fused step although it was
-      // pressed on by O(h). A first-order rule continues on its own path, h^2 away.
+      // The paths differ by rounding. They also differ by h^3 for each particle that leaves a ball in a fused step
+      // although an acceleration of O(h) still pressed it on. A first-order rule then takes a path of its own, h^2
+      // away.
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)

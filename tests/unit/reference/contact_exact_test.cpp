@@ -107,7 +107,7 @@ TEST(Slide, WithoutFrictionItLeavesWhereEnergySays) {
     const double middle = (low + high) / 2;
     (exact->at(middle).x.col(0).norm() > radius * (1 + 1e-13) ? high : low) = middle;
   }
-  // The gap grows as the cube of the time: it reaches 1e-13 of the radius after 5e-5 s, at 2.6 m/s on 1 m.
+  // The gap grows as the cube of the time. At 2.6 m/s on a ball of 1 m, it reaches 1e-13 of the radius after 5e-5 s.
   EXPECT_NEAR(exact->at(low).x(1, 0) / radius, cosine, 2e-4);
 }
 
@@ -119,8 +119,8 @@ TEST(ContactExact, MysimConvergesToTheClosedForms) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const double until = std::string_view(name) == "bounce" ? 0.6 : 1;
       const double coarse = off(scene, *exact, method, 1e-3, until), fine = off(scene, *exact, method, 1e-5, until);
-      // At first order, the short step has a hundredth of the error, or up to 4 times that, depending on the position
-      // of an impact within its step.
+      // At first order, the short step has a hundredth of the error, or up to four times as much, depending on where in
+      // its step an impact occurs.
       EXPECT_LT(fine, 0.04 * coarse);
       EXPECT_LT(coarse, 2 * 3 * 1e-3 * 4);  // distance moved in a few steps at 3 m/s
     }

@@ -33,8 +33,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
           const double h = part * limit;
           const int samples = 4200 / per_sample;
           const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
-          // Speeds are central differences. At the limit of rk4, where a step is 109 degrees of the vibration, they are
-          // a third of rk4's own velocities. At 1.01 of the limit the speeds stay at four times the true speed.
+          // Speeds are central differences. At the limit of rk4, where a step covers 109 degrees of the vibration,
+          // these are a third of rk4's own velocities. At 1.01 of the limit they stay at four times the true speed.
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else
@@ -45,7 +45,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
 
 TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
   // 1 % above the limit the solution is x_n = (-1)^n A cosh(n p) with p = 2 acosh(1.01) = 0.28 and A = 0.1 m. K^
-  // exceeds the available energy, so the true motion is computed, before the speed is ten times the true one, 1 m/s.
+  // exceeds the available energy before the speed is ten times the true speed of 1 m/s, so the true motion is computed
+  // in time.
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.202;
   for (const int per_sample : {1, 40, 1000}) {

@@ -47,8 +47,8 @@ TEST(HardDistances, AreKeptToSecondOrder) {
         worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
       // One Gauss-Seidel pass per step leaves an error as large as the transverse motion in a step: h^2 times an
-      // acceleration, divided by a link's length. This is of second order, but a whip reaches its maximum at other
-      // moments when the step changes.
+      // acceleration, divided by a link's length. This is of second order, but with another step the whip reaches its
+      // maximum at a different moment.
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -245,13 +245,13 @@ TEST(Multipliers, KeepEnergyAndXpbdConvergesToThem) {
   const Scene scene = without_drag(shipped_scene("rod"));
   const Trajectory t = by_multipliers(scene, {2.5e-4, 1, 20});
   for (int i = 0; i < t.frames(); ++i)
-    EXPECT_NEAR(energy_of(scene.model, {t.t[i], t.x[i], t.v[i]}).total(), 0, 1e-7);  // J; 2 J are converted, h^4
+    EXPECT_NEAR(energy_of(scene.model, {t.t[i], t.x[i], t.v[i]}).total(), 0, 1e-7);  // J; order h^4 of some 2 J
   double before = 0;
   for (const double h : {4e-4, 2e-4, 1e-4}) {
     const double error = sup_rms(trajectory_of(stepper("xpbd"), shipped_scene("rod"), {h, 1, 20}),
                                  by_multipliers(shipped_scene("rod"), {2.5e-4, 1, 20}));
     if (before > 0) {
-      EXPECT_NEAR(slope(before, error), 1, 0.1);  // the next term is h omega of the whip, some per cent
+      EXPECT_NEAR(slope(before, error), 1, 0.1);  // the next term is smaller by h omega of the whip, some per cent
     }
     before = error;
   }

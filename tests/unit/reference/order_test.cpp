@@ -99,9 +99,9 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
         if (decade == 5) first = error;
         last = error;
       }
-      // Errors per step of R accumulate to between R^(p/(p+1)) and R, an exponent of 0.83 to 1 at p = 5. The fit starts
-      // at 1e-5: at 1e-4 the chain's steps are at the edge of stability (mean h omega = 2), where the error stays at
-      // the tolerance.
+      // Errors of R per step accumulate to between R^(p/(p+1)) and R: an exponent of 0.83 to 1 for p = 5. The fit
+      // starts at 1e-5: at 1e-4 the chain's steps are at the edge of stability (mean h omega = 2), where the error
+      // stays at the tolerance.
       const double decades = std::log10(first / last) / 5;
       EXPECT_GT(decades, 0.7) << name;
       EXPECT_LT(decades, 1.3) << name;

@@ -65,8 +65,8 @@ TEST(Translation, OfTwelveScenesThereAndBackIsWithinTheStatedError) {
       expect_within(scene_of(scene, *target.numbers, file), scene, t);
       for (const TranslatedNumber& number : t.numbers) {
         if (number.rule->gather == NumberRule::Gather::median) continue;  // one slider for all springs: not one-to-one
-        // Conversions that are one-to-one err by the precision's round-off: for links up to 2 + k h^2 / mu times as
-        // much, and for frequencies, which are squared and combined with rounded masses, three times as much.
+        // Conversions that are one-to-one err by the precision's round-off: by 2 + k h^2 / mu times as much for links,
+        // and by three times as much for frequencies, which are squared and combined with rounded masses.
         const double rounding = 0.5 * (target.single_precision ? 1.2e-7 : eps) + 8 * eps;
         EXPECT_LE(number.stated, (1 + 1e-9) * rounding * (3 + largest_K(scene))) << name_of(number.rule->quantity);
       }
