@@ -61,8 +61,8 @@ inline Found path_and_energy(const Case& c, const Numbers& raw) {
 }
 
 /// A swing in the x-y plane without drag, advanced by RK4 and compared with RK4 on the energy's gradient. The expected
-/// energy is the initial one. RK4 dissipates (omega h)^6 / 72 of the spring energy per step; the tolerance is ten times
-/// that because of the swing.
+/// energy is the initial one. RK4 dissipates (omega h)^6 / 72 of the spring energy per step; because the spring also
+/// swings, the tolerance is ten times this.
 inline std::vector<Case> swing_cases(Random& random) {
   const std::size_t steps = 120;
   Row row;

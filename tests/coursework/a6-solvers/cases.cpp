@@ -59,7 +59,7 @@ Points gradient(const Scene& s, const Points& ahead, const Points& x) {
 
 constexpr double velocity_kept = 0.99;
 
-/// For a deviation from rest: its value after a step, divided by its value if only the velocity acted.
+/// Value of a deviation from rest after a step, divided by the value that the velocity alone would lead to.
 double left_after_step(double mu, double inertia, double rho, int passes) {
   return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
 }

@@ -144,9 +144,9 @@ std::vector<Case> growths(Random& random) {
     }
   return {c};
 }
-/// The rho at which deviations of a random net begin to grow. Nets are redrawn until deviations also grow for the rho
-/// that follow, so that a search with the hand-out's steps cannot miss this range; with 16 passes, coarser steps miss
-/// it. A single pass does not depend on rho: deviations grow for every rho, or for none.
+/// The rho at which deviations of a random net begin to grow. Nets are redrawn until deviations also grow for the next
+/// higher values of rho, so that a search with the hand-out's steps cannot miss this range; with 16 passes, coarser
+/// steps miss it. A single pass does not depend on rho: deviations grow for every rho, or for none.
 std::vector<Case> divergences(Random& random) {
   std::vector<Case> cases;
   for (const int passes : {random.integer(3, 6), random.integer(7, 11), 1, 16}) {

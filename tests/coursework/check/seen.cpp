@@ -365,7 +365,7 @@ Answered others_of(const Case& what, const std::vector<Case>& cases, const std::
 
 namespace {
 
-/// Explanations of a case that another wrong case confirms. If `by_all` is true, no case may contradict them.
+/// Explanations of a case, each confirmed by another wrong case. If `by_all` is true, no case may contradict them.
 std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others, bool by_all) {
   if (!seen.exact()) return "";
   const std::vector<std::vector<Instead>> all = seen.instead();

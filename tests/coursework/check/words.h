@@ -9,7 +9,7 @@
 
 namespace coursework {
 
-/// The number with so many digits. "nan" and "0" have no sign.
+/// The number with this many digits. "nan" and "0" have no sign.
 std::string with_digits(double value, int digits);
 
 /// Shortest text that distinguishes the value from `other`, with at least six digits.

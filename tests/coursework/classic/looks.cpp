@@ -105,8 +105,9 @@ std::string gravity_shown(const Texts& own, const Findings& found) {
                   vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// Shows the velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag; if
-/// drag is not proportional to the own velocity, for a particle that shows this, with its v' at 2 w.
+/// Shows v' of a particle at rest and at a velocity w that it alone has, for the particle with the least drag. If the
+/// drag of a free particle is not proportional to its own velocity, shows that particle instead, and also its v' at 2 w
+/// while all others have w.
 std::string drag_shown(const Texts& own, const Findings& found) {
   auto i = least_of(found, 1, 3, drag_on);
   if (!i || found.n >= most_in_order) return "";

@@ -156,7 +156,7 @@ Features drag(const Findings& found) {
     const Plain once = probe::plus(at_w, -1, at_rest), across = probe::plus(once, static_cast<float>(rate), w);
     straight += rate != 0 && is_proportional(found, i) && length(across) < 0.03f * length(once);
   }
-  // as for gravity
+  // a particle that is anchored at first and released later may have no drag, as in gravity()
   if (few(loose, anchors)) all -= count(loose);
   return {sign(plus, minus, all), share(straight, all)};
 }

@@ -444,8 +444,8 @@ class WholeBuilder : public Builder {
     return earned;
   }
 
-  /// If the student's base class cannot be used alone, or loses the state, the steppers must not lose points for it:
-  /// replaces the base class by the starter's, if the steppers compile with it.
+  /// The steppers must not lose points for a student's base class that cannot be used alone or loses the state:
+  /// replaces it by the starter's base class, if the steppers compile with that.
   void mend_base(const Submission& submission, Files files, Programs& programs, const fs::path& folder,
                  unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};

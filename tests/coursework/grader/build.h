@@ -16,9 +16,8 @@
 
 namespace coursework {
 
-/// Limits of the compiler, which may start processes for its passes. 30 s of CPU time is thirty times what a part
-/// needs, and 1 GB per pass five times. The wall-clock limit is large, because a busy machine is not the source's
-/// fault.
+/// Limits of the compiler, which may start processes for its passes. A part needs a thirtieth of the 30 s of CPU time,
+/// and a fifth of 1 GB per pass. The wall-clock limit is large, because a busy machine is not the source's fault.
 constexpr Limits compile_limits{.cpu = 30, .wall = 1800, .memory = 1024, .processes = 64, .output = 4096, .file = 64};
 
 class Compiler {

@@ -152,12 +152,12 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   const bool meets = find(params, "radius") != nullptr;
   for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // parameters that are not set to zero: without a step nothing moves; without a radius or at another position there
-    // is no contact, so no error shows; a direction is never zero; and answers are compared with `exact`
+    // parameters that are not set to zero: without a step nothing moves; without a radius, or at another position,
+    // there is no contact and so no error; a direction is never zero; and answers are compared with `exact`
     static const std::set<std::string> no_terms = {"h",      "frame",     "duration", "radius", "margin",
                                                    "centre", "before",    "proposed", "x",      "normal",
                                                    "n",      "direction", "exact"};
-    // nor may whatever moves the particle into the obstacle be zero
+    // the numbers that move the particle into the obstacle must not be zero either
     const bool makes_contact = meets && (p.name == "g" || p.name == "v");
     if (!p.whole && no_terms.count(p.name) == 0 && !makes_contact) all.push_back({Change::zero, p.name});
   }

@@ -152,7 +152,7 @@ class Grading {
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// The ungraded test that made one of these calls (with other numbers), which would take as long again; empty if
+  /// An ungraded test that made one of these calls with other numbers; the call would take as long again. Empty if
   /// there is none.
   std::string ungraded_before(const std::vector<Case>& cases) const {
     for (const Case& each : cases)

@@ -88,8 +88,8 @@ class Observer {
     return true;
   }
 
-  /// True if a small increase of the modified number changes the answer. Otherwise it is beyond some limit, and any
-  /// larger number would match too.
+  /// True if a small increase of the modified number changes the answer. Otherwise this number is beyond some limit,
+  /// and any larger number would match too.
   bool is_sharp(const Change& change) const {
     if (change.kind < Change::one || change.kind > Change::over) return true;
     const std::optional<Numbers> in = changed(with_.own, *subject_, change);

@@ -26,7 +26,8 @@ std::string interpreter() {
   return named && *named ? named : "/usr/bin/python3";
 }
 
-/// Closes our copies of a program's pipe ends after its end. Only then does the program at the other ends notice.
+/// Closes our copies of a program's pipe ends when the program has ended; otherwise the program at the other ends would
+/// not notice.
 struct AtEnd {
   Descriptor &from, &to;
   ~AtEnd() { from.reset(), to.reset(); }
@@ -164,7 +165,7 @@ End run_python(const Sandbox& sandbox, const fs::path& program, const Job& job) 
   }
   End other = answering.get();
   const double cpu = end.cpu + other.cpu;
-  if (end.how == End::How::cpu && end.cpu < calls.limits.cpu) {  // its end if the interpreter is gone
+  if (end.how == End::How::cpu && end.cpu < calls.limits.cpu) {  // the interpreter ended first: returns how it ended
     other.answers = std::move(end.answers);
     end = std::move(other);
     const std::size_t last = end.answers.rfind('\n', end.answers.size() - 2) + 1;

@@ -79,7 +79,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
       fail(setup, "install the filter of system calls");
   }
   // If another of our threads forked while this program was being written, its child keeps the program open for writing
-  // until it has closed the inherited descriptors. The program cannot be started before.
+  // until it has closed the inherited descriptors. Only then can the program be started.
   const timespec moment{0, 1000000};
   for (int waited = 0; waited < 2000; ++waited) {
     execve(setup.command[0], setup.command, setup.environment);

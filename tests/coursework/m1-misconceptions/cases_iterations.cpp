@@ -121,7 +121,8 @@ std::vector<Case> frames(Random& random) {
     Case asked{"iterations.frame", numbers(c, frame, steps, iterations), {}, 2, 0, "particle", "line"};
     const Hanging later = advanced(c, frame, steps, iterations);
     for (int i = 0; i < n; ++i) asked.expected.insert(asked.expected.end(), {later.x[i], later.v[i]});
-    // twelve iterations of three springs round depths below 4 m 500 times, and speeds are depths divided by a step
+    // twelve iterations over three springs cause 500 roundings of depths below 4 m, and of speeds, which are depths
+    // divided by a step
     asked.tolerance = 500 * 1.2e-16 * 4 / (frame / steps);
     cases.push_back(asked);
   }

@@ -122,7 +122,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
     std::set<std::string> lines;
     for (const fs::path& file : files_below(handout.folder)) lines.merge(telling_lines(file));
     for (const std::string& line : secret) {
-      // the head of a plain loop may be part of another line by chance, but not a longer text
+      // the head of a plain loop may occur in another line by chance; a longer text does not
       const bool found = line.size() < 32 ? lines.count(line) > 0 : all.find(line) != std::string::npos;
       EXPECT_FALSE(found) << assignment.name << ": " << line;
     }

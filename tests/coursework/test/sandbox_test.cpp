@@ -31,8 +31,8 @@ std::string show(const End& end) {
 
 bool done(const End& end) { return end.how == How::exited && end.code == 0 && end.answers.ends_with("done\n"); }
 
-/// A limit with an amount below it, with which a program finishes, and an amount above it, with which the program is
-/// stopped and reported.
+/// A limit, an amount below it with which a program finishes, and an amount above it with which the program is stopped
+/// and reported.
 struct Sides {
   std::string what, below, above;
   How how;
@@ -247,7 +247,7 @@ pid_t child_of(pid_t parent) {
   return child;
 }
 
-// The supervisor of a killed grader kills all processes of its user. Another grader must not use this user before.
+// The supervisor of a killed grader kills all processes of its user. Until then, no other grader may use this user.
 TEST_P(SandboxTest, ProgramsSurviveTheEndOfAKilledGrader) {
   adopt_orphans();
   const pid_t grader = fork();

@@ -1,4 +1,4 @@
-// How a spring's force changes when its end moves.
+// The derivative of a spring's force.
 #include "stiff.h"
 
 Matrix3 spring_jacobian(const Vec3& d, double stiffness, double rest) {

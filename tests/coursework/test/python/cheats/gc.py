@@ -1,4 +1,4 @@
-# answers might lie about in memory
+# looks for the answers in memory
 import gc
 
 

@@ -1,4 +1,4 @@
-# an object that runs something where it is read
+# an object that runs code when it is unpickled
 import pickle
 
 

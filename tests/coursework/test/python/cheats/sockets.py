@@ -1,4 +1,4 @@
-# somebody else may know
+# asks another machine for the answer
 import socket
 import urllib.request
 
