@@ -11,7 +11,7 @@ struct FoundRule {
   enum Kind { unknown, same, nearest, own_steps, ignores_step };
   Kind kind = unknown;
   std::string rule;           // "rk4"; the nearest rule if none agrees with the runs
-  std::string like;           // mysim's stepper of that order and stability limit; empty unless exact
+  std::string like;           // mysim's stepper with this order and stability limit; empty unless exact
   std::string drag;           // "explicit", "implicit", "exact", "time-symmetric"; empty: not tried, or none of these
   bool own_drag = false;      // true: the rule's own drag
   bool exact = false;         // agrees to rounding, not only to its solver's error
