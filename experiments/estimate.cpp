@@ -55,7 +55,7 @@ double estimated_seconds(const Method& method, const Scene& scene, long steps) {
 
 namespace {
 
-/// More steps than any practical run: they take three hours at 10 ns, the cost of the cheapest step of one particle.
+/// More steps than any practical run has: at 10 ns, the cost of the cheapest step of one particle, they take 3 hours.
 constexpr double most_steps = 1e12;
 
 double springs_and_constraints_in(const Scene& scene) {
@@ -91,7 +91,7 @@ void require_memory_for(const Scene& scene, const std::string& what, double byte
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run) {
   const double particles = static_cast<double>(scene.start.x.cols()), springs = springs_and_constraints_in(scene);
   ResourceEstimate estimate{};
-  // as in time_grid(), but does not refuse any number of steps
+  // as in time_grid(), but accepts any number of steps
   const double interval = run.duration / run.samples;
   estimate.steps = run.samples * std::max(1., std::ceil(interval / run.step * (1 - 1e-9)));
   estimate.seconds =

@@ -33,11 +33,12 @@ std::optional<State> rest_of(const Scene& scene) {
   Points a(3, s.x.cols());
   const double omega = highest_frequency(model, s);
   if (!(omega > 0)) return std::nullopt;
-  // 2 / omega is the stability limit at the start; a spring that stretches across the load only has a lower frequency
+  // 2 / omega is the stability limit at the start; a stretched spring also resists sideways motion, but less than
+  // extension
   double h = 0.8 / omega, before = 0, scale = 0;
   constexpr int most_steps = 100000, check = 50;
-  // rounding error at rest: the forces that cancel have errors of a few ulps of the force of springs stretched over the
-  // scene's size
+  // rounding error of the acceleration at rest, where forces cancel: a few ulps of the force of a spring that is
+  // stretched by the scene's size
   const double rounding = 1e-13 * omega * omega * scene.size();
   for (int i = 0; i < most_steps; ++i) {
     system.acceleration(s, a);
@@ -105,8 +106,7 @@ MeasuringRun own_run(const Scene& scene) {
   };
 }
 
-/// Measures with the kind of runs that `by` names. For converged runs, extrapolates an error of order 2 (order 1 for
-/// xpbd).
+/// Measures with runs of the kind `by`. For converged runs, extrapolates an error of order 2 (order 1 for xpbd).
 template <class Measure>
 std::optional<double> measured(const Scene& scene, MeasuredBy by, Measure measure) {
   if (by == MeasuredBy::own_method) return measure(own_run(scene));

@@ -68,7 +68,8 @@ struct Statistic {
 struct ContactStatistics {
   static constexpr int runs = 16;
   /// Initial displacement of each particle in a seeded direction, m. It is far above rounding errors, which grow a
-  /// thousandfold from 1e-16 m within the window, and at most a hundredth of the smallest tolerance of a shipped scene.
+  /// thousandfold from 1e-16 m within the window, and at most a hundredth of the tolerance of any shipped scene with
+  /// contact.
   static constexpr double perturbation = 1e-6;
 };
 

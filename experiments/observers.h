@@ -35,7 +35,7 @@ class LastFrames : public Observer {
   std::deque<State> kept_;
 };
 
-/// Ends a run that takes too long, because an adaptive rule takes ever shorter steps in an exploding motion.
+/// Ends a run that takes too long: in an exploding motion, an adaptive rule takes ever shorter steps.
 class TimeoutObserver : public Observer {
  public:
   explicit TimeoutObserver(double seconds)

@@ -45,7 +45,7 @@ std::string name_without(const std::vector<std::string>& out) {
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& y, const Trajectory& truth,
                                   Outcome& outcome) {
   Recorder recorder;
-  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // x' = f without the model's only term: nothing moves
+  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // its only term was removed: nothing moves
     outcome = {};
     double largest = 0;
     for (int i = 0; i < truth.frames() && truth.t[i] <= y.run.duration * (1 + 1e-9); ++i)

@@ -41,7 +41,7 @@ std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSoluti
 /// The model with the fewest ingredients whose error is within the tolerance (m).
 const AblatedModel& least_model(const std::vector<AblatedModel>& models, double tolerance);
 
-/// Distance of a model of the scene from `truth` over time, m. Empty if the run failed.
+/// Largest RMS distance (m) of the run of a model from `truth`. Empty if the run failed. Sets `outcome`.
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& reference, const Trajectory& truth,
                                   Outcome& outcome);
 

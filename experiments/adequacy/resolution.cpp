@@ -48,7 +48,7 @@ std::optional<double> factor_for(const Scene& at_rest, double wished, double sag
     if (!(inverse > 0) || !std::isfinite(inverse)) return std::nullopt;
     a = b, of_a = *of_b;
     b = std::clamp(1 / inverse, b / 2, b * 2);
-    if (std::abs(b / a - 1) < 2e-3) return b;  // below the standard error of the exponent
+    if (std::abs(b / a - 1) < 2e-3) return b;  // precise enough: the fitted exponent is less certain
   }
   return std::nullopt;
 }
@@ -128,7 +128,7 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
   std::vector<BendSprings> list;
   for (const int n : sizes) {
     if (list.empty()) {
-      constexpr double first = 40;  // N/m: the droop is some tenths of the length
+      constexpr double first = 40;  // N/m; at this stiffness the droop is some tenths of the length
       if (const auto d = droop(n, first)) list.push_back({n, n - 1.5, first, *d});
       if (list.empty()) return list;
       continue;

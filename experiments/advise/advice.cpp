@@ -103,7 +103,7 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
            .error_bar = path.error_bar(),
            .under_contact_rule = truth.under_contact_rule,
            .until = path.until()};
-  // the error bar is at most a third of the tolerance: the run's own error may then be at least twice the error bar
+  // requires an error bar of at most a third of the tolerance, which leaves two thirds to the run's own error
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
         fmt::format("the truth is known to {:.2g} m only, but {:.2g} m is requested; request {:.2g} m or more",
@@ -161,7 +161,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // stops at four times the best cost; costlier methods are no alternative
+                      model.name);  // abandons a method at four times the best cost
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -178,7 +178,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
   a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
   a.of_full.reset();
   if (a.trials[a.chosen].model == "full") return;
-  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // `runs` keeps the last entries only
+  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // these trials are the last ones
   if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
@@ -219,7 +219,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
     least->scene.samples = scene.samples;  // the trials use the same samples as a run of the written file
     models.insert(models.begin(), std::move(*least));
   }
-  // the truth has a larger error bar at widely spaced samples than at dense ones
+  // the truth sampled like the scene has a larger error bar than the densely sampled one
   const auto sampled = truth_of(scene, default_run(scene));
   bool kept = false;
   if (sampled && sampled->error_bar < tolerance) try {

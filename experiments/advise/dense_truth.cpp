@@ -83,7 +83,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
       throw CannotGuarantee(fmt::format(
           "between its samples the truth is known to {:.2g} m only, but {:.2g} m is requested", bar_, tolerance));
   }
-  // in an eighth of a period the phase advances by 0.79
+  // between two samples the phase advances by up to 0.79, an eighth of a turn; within the time resolution, by 1/16
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }

@@ -29,8 +29,8 @@ class DenseTruth {
   double until() const { return until_; }    // s
   double error_bar() const { return bar_; }  // m, error bar of the truth, including the interpolation error
   double motion() const { return motion_; }  // m, largest RMS distance from the start
-  /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. No error changes by more
-  /// than 0.2 % of its maximum in that time.
+  /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. Observed at this interval,
+  /// an error shows its maximum to within 0.2 %.
   double time_resolution() const { return time_resolution_; }
   Points at(double t) const;  // m, 3 x n; t in s, up to until()
 
@@ -48,9 +48,9 @@ class DenseTruth {
   double until_ = 0, bar_ = 0, motion_ = 0, time_resolution_ = 0;
 };
 
-/// The scene's own run, observed at the time resolution of the truth. An adaptive method is observed on the grid of the
-/// run's step, which does not affect its steps. With contact the grid would limit the steps, so the run stays
-/// unchanged.
+/// The scene's own run. For an adaptive method, run.step becomes at most the time resolution of the truth: it is only
+/// the interval of observation, and does not affect the method's own steps. With contact it would limit them, so the
+/// run stays unchanged.
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
 /// Keeps the largest RMS distance of a run from the truth. Skips steps that follow the previous one within the time

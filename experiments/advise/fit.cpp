@@ -18,8 +18,9 @@
 namespace crosscheck {
 namespace {
 
-/// Kinds of parameters that can be fitted. `ending`: last keys of the parameter's path. `low`, `high`: search range, in
-/// units of the scene: mass (or 1 without `mass`) divided by time to the power `times`.
+/// Kinds of parameters that can be fitted. `ending`: last keys of the parameter's path. `low`, `high`: search range in
+/// the scene's unit of the parameter, which is a typical mass (1 if `mass` is false) divided by a typical time to the
+/// power `times`.
 struct Kind {
   std::string_view ending, name, unit;
   double low, high;

@@ -45,8 +45,8 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // numbers of particles a side: for one thread only, the smallest for two threads, the largest in the
-                   // caches of two cores, and a larger one
+                   // particles a side: too few for a second thread, just enough for one, the most that the caches of
+                   // two cores hold, and more than that
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},

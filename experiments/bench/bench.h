@@ -24,9 +24,9 @@ struct BenchSuite {
   ThreadsOptions threads;
 };
 
-/// `quick` suite: within 100 s on a quiet machine with two cores; full suite: also the largest cloth, and more peers on
-/// the others. `beside`: additional peers, run on cloths of 16 and 32 particles a side. Throws InputError for unknown
-/// methods.
+/// The quick suite takes at most 100 s on a quiet machine with two cores. The full suite adds the largest cloth, and
+/// more peers on the others. `beside`: additional peers, run on cloths of 16 and 32 particles a side. Throws InputError
+/// for unknown methods.
 BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
 struct BenchResult {

@@ -54,9 +54,9 @@ struct EqualErrorOptions {
 };
 int work_of(const EqualErrorOptions& options);
 
-/// Compares each run of each peer with mysim's cheapest run that is at least as accurate; the error bar of the truth
-/// counts against mysim on both sides. The truth is suzuki4 at a sixteenth of its largest step. Sets no ratio if the
-/// peer's error is within the error bar.
+/// Compares each run of each peer with the cheapest run of mysim whose error is smaller by at least two error bars of
+/// the truth, so that it is certainly as accurate. The truth is suzuki4 at a sixteenth of its largest step. Sets no
+/// ratio if the peer's error is within two error bars.
 void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record);
 
 struct SameStepOptions {

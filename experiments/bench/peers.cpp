@@ -22,7 +22,7 @@ struct MysimMethod {
   double first, ratio;
 };
 constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4), and 1/2 for a slow rule that is never the best one
-// the most efficient first: a later method stops when an earlier one is more accurate with as many evaluations
+// the most efficient first: a later method stops when an earlier one was more accurate at the same cost
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
@@ -56,7 +56,8 @@ class PeerRuns {
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
   /// Runs of each method from long steps to short ones, also in single precision if the cloth is wide enough. A method
-  /// stops at the error `wanted` (m), after `most` evaluations, or when another method was more accurate with as few.
+  /// stops at the error `wanted` (m), after `most` evaluations, or when another method has been at least as accurate
+  /// with no more evaluations.
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
@@ -165,7 +166,7 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
     if (refused && std::ranges::count(record.notes, note) == 0) record.notes.push_back(note);
     return refused;
   });
-  double wanted = INFINITY;  // m, smallest error of a peer that exceeds the error bar
+  double wanted = INFINITY;  // m, smallest error that mysim must reach to compare with a peer
   long most = 0;             // number of mysim's evaluations that take about as long as the slowest run of a peer
   for (const PeerRun& run : peers) {
     if (run.ok() && *run.error > 2 * bar) wanted = std::min(wanted, *run.error - 2 * bar);

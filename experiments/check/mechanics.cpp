@@ -133,7 +133,8 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // bounds m (x' x v + x x v') by the largest distance and speed. `times`: number of halvings of the step
+  // Rounding errors dx and dv change the angular momentum by m (dx cross v + x cross dv), which the largest distance
+  // and speed bound. `times`: number of halvings of the step
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);

@@ -113,7 +113,8 @@ class Kit {
            const char* section) {
     add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
   }
-  /// Adds a line, which contains the error message without the folder if `work` throws InputError.
+  /// Adds a line with the text that `work` returns. If `work` throws InputError, the line has the error message without
+  /// the folder, and the function returns false.
   bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
                  const std::function<std::string()>& work) {
     try {
@@ -264,7 +265,7 @@ class Kit {
           json.find(key) ? what : fmt::format("add the key: {}", what), run_file);
   }
 
-  /// Repeats the call in the way in which all commands make it, and checks verdict, pins, ingredients and certificate.
+  /// Repeats the call as other commands make it, and checks verdict, pins, ingredients and certificate.
   void try_whole(const Scene& scene, const Run& run, const KitCall& made) {
     Recorder recorder;
     const Outcome out = run_method(method_, scene, run, {&recorder});
@@ -295,7 +296,7 @@ class Kit {
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
     const std::vector<Ingredient> all = ingredients_of(scene);
     const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };
-    // infinite if the removal of one ingredient of the set also removes another one: a smaller set then has the same
+    // infinite if removing one ingredient of the set also removes another, because a smaller set then has the same
     // effect
     const auto distance_without = [&](unsigned set) -> double {
       Recorder recorder;
@@ -395,7 +396,7 @@ class Kit {
     }
   }
 
-  /// Modifies the first supported scene in the ways in which other versions and callers may write it.
+  /// Modifies the first supported scene as a later version or a careless caller might write it.
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const char* name : kit_scenes) {
@@ -445,7 +446,7 @@ class Kit {
   int taken_ = 0;  // number of scenes that the program did not refuse
   bool has_readback_ = false;
   bool hangs_ = false;
-  std::string first_json_;  // name of the scene whose run.json has its own line for each key
+  std::string first_json_;  // name of the scene whose run.json is reported key by key
   std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // quantity -> scene and its worst row
 };
 

@@ -30,8 +30,8 @@ struct ConformanceReport {
   bool complete() const;  // true if no required part is missing
 };
 
-/// Runs the program twice on each of eight scenes of one and two particles, and on three scene files that are written
-/// as by a later version or a careless caller. Throws InputError if there is no such program.
+/// Runs the program twice on each of eight scenes of one and two particles, and on three scene files as a later version
+/// or a careless caller might write them. Throws InputError if there is no such program.
 ConformanceReport try_adapter(const std::string& program);
 
 }  // namespace crosscheck

@@ -60,8 +60,8 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   require_own_step(subject.method());
   const Trajectory& one = halved(subject, scene, 0);
   const int order = order_of(subject.method());
-  // an error C h^p makes the second difference 2^-p of the first; the allowance of half a power covers terms of higher
-  // order
+  // if the error is C h^p, the second difference is 2^-p times the first; the allowance of half a power covers terms of
+  // higher order
   const auto difference = [&](int times) {
     return distances(halved(subject, scene, times), halved(subject, scene, times + 1));
   };

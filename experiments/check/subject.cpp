@@ -115,7 +115,7 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene, double lengths) 
       48 * unit_roundoff() * omega * omega * std::max(lengths, lengths_in(scene, plain.path)) * plain.outcome.step;
   const double unsolved = std::max(rule->solved_to * largest_speed(plain.path) * heaviest / lightest, rounded) *
                           static_cast<double>(std::max(1L, plain.outcome.steps));
-  // this error grows in the same way as the perturbation
+  // the error of positions, unsolved * duration, grows in the same way as the perturbation
   const double factor = 1 + unsolved * scene.duration / noise.start;
   for (double& x : noise.x) x *= factor;
   for (double& v : noise.v) v = v * factor + 3 * unsolved;

@@ -194,8 +194,8 @@ Scene scaled(Scene scene, const Scaling& scaling) {
 
 namespace {
 
-/// Index of each particle's mirror image, with mirrored motion, the same mass and pin. Returns nullopt if one is
-/// missing.
+/// Index of each particle's mirror image, which must have the same mass and the mirrored position and velocity, and
+/// must be pinned if the particle is. Returns nullopt if an image is missing.
 std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
   const Particles& p = scene.model.particles;
   std::vector<int> image(p.size(), -1);

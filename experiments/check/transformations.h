@@ -45,18 +45,19 @@ std::optional<Mirror> mirror_of(const Scene& scene);
 
 Scene scene_in(const std::string& folder, const std::string& name);
 
-// The smallest scenes that show relations. Their step of 2^-10 s is exact in every precision. It is a tenth of the
-// stable step, so that explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below tenfold in a second.
+// The smallest scenes that show relations. Their step of 2^-10 s is exact in every precision. It is at most a fiftieth
+// of leapfrog's stable step, so that explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below a factor of 3
+// in a second.
 
 std::vector<Scene> small_nets();      // five particles, one of them pinned, swinging under gravity
-std::vector<Scene> falling_nets();    // a tetrahedron at rest: soft, stiff, with dashpots
+std::vector<Scene> falling_nets();    // a tetrahedron released from rest: soft, stiff, with dashpots
 std::vector<Scene> resting_nets();    // a tetrahedron at rest, without gravity
 std::vector<Scene> flying_nets();     // thrown, rotating and vibrating, without external influences
 std::vector<Scene> vibrating_nets();  // two particles on a spring, rotating and vibrating for 16 s
 std::vector<Scene> symmetric_nets();  // a strip that hangs from its middle, and one that slides down a slope
 std::vector<Scene> nets_anywhere();   // the small net, and the strip on a slope
 std::vector<Scene> pinned_nets();     // one net with a fixed pin, one with a moving pin
-std::vector<Scene> hanging_chains();  // three masses on three different springs: with drag, with dashpots
+std::vector<Scene> hanging_chains();  // three masses on three different springs, once with drag and once with dashpots
 std::vector<Scene> hanging_chains_in_drag();
 
 }  // namespace crosscheck

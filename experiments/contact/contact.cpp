@@ -58,8 +58,7 @@ void cones_on(Ground ground, const Request& request, const Method& method, Table
   const bool flat = ground == Ground::plane;
   Table table = flat ? table_of<PlaneConeRow>() : table_of<ConeRow>();
   std::vector<double> steps = {1e-3};
-  // longer steps are omitted for planes: the error of a step would hide the distance travelled at a thousandth beyond
-  // the limit
+  // omits longer steps on planes: their error would hide the short slide at a friction a thousandth below the limit
   if (request.full && !flat) steps = {1. / 60, 1. / 240, 1e-3};
   for (const double h : steps)
     for (const double degrees : {10., 20., 30., 40., 50.}) {

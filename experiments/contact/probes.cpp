@@ -203,8 +203,8 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
   ConeResult result{(path.x.back() - path.x.front()).norm(),
                     std::max(0.0, gravity * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2,
                     ContactState::neither};
-  // m. At a thousandth beyond the limit and 10 degrees, the distance is 0.21 mm, and the error of a first-order rule is
-  // 0.02 mm.
+  // m. On a plane of 10 degrees, a particle slides 0.21 mm if its friction is a thousandth below the limit, and the
+  // error of a first-order rule is 0.02 mm.
   const double negligible = ground == Ground::plane ? 5e-5 : 1e-3;
   if (result.distance < negligible)
     result.state = ContactState::sticks;

@@ -54,7 +54,7 @@ Scene on_slope(double degrees, double friction, Ground ground);
 struct ConeResult {
   double distance;     // m, in 0.5 s
   double coulomb;      // m, by Coulomb's law: 0 within the friction cone, otherwise g (sin - mu cos) t^2 / 2
-  ContactState state;  // sticks: moves < 1 mm (plane: 50 um); slides: differs from `coulomb` by < a tenth plus that
+  ContactState state;  // sticks: moves < 1 mm (plane: 50 um); slides: within a tenth plus 1 mm (50 um) of `coulomb`
 };
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, Ground ground, double step,
                                Outcome& out);

@@ -94,7 +94,8 @@ TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outc
   return loop;
 }
 
-/// Times (s) of one step or call. Quick measurements run loops of 5 ms without a warm-up, and of 10 ms twice.
+/// Times (s) of one step or call. In quick measurements, loops that take at least 5 ms need no warm-up, and those that
+/// take at least 10 ms run only twice.
 std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
   std::vector<std::function<double()>> runs;
   for (const TimedLoop& loop : loops) runs.push_back(loop.run);

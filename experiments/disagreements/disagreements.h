@@ -83,8 +83,7 @@ struct Disagreement {
   /// the first variant's run, on a logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
   std::function<std::string(const std::vector<Series>&)> effect;  // one sentence with the measured size of the effect
-  /// Conditions. cause_removed is empty if no variant removes the cause.
-  std::vector<Condition> symptom, cause_removed;
+  std::vector<Condition> symptom, cause_removed;  // cause_removed is empty if no variant removes the cause
   std::function<TableWithSentence(const Disagreement&)> measured = nullptr;  // additional measurements
   // from disagreements.md
   std::string what = {};     // heading: the property that cannot be matched, or that fails

@@ -226,7 +226,7 @@ std::string unused_effect(const std::vector<Series>& all) {
 }
 
 std::string over_relaxation_effect(const std::vector<Series>& all) {
-  // every step is a sample; from step 6 the decaying root has vanished, and up to step 12 the stretch is still small
+  // every step is a sample; by step 6 the link's decaying mode has vanished, and until step 12 the stretch is small
   auto growth = [](const Series& s) -> double {
     constexpr size_t from = 6, to = 12;
     if (s.points.size() <= to) return NAN;

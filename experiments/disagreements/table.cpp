@@ -178,7 +178,7 @@ std::vector<Disagreement> table() {
         {"Bullet, single precision", "bullet32/deformable-explicit"}},
        nullptr,
        precision_effect,
-       // bounds in m: rounding of a single number of 1.5 m; round-off of 3000 steps
+       // bounds in m: rounding of 1.5 m to single precision; round-off of 3000 steps in double precision
        {{apart, 2, 0, 1e-7}},
        {{within, 1, 0, 1e-13}}},
       {"network-in-pieces",
@@ -230,7 +230,7 @@ std::vector<Disagreement> table() {
         {"100 N/m, deformable, kLST 0.01", "bullet/deformable-explicit+kLST=0.01"}},
        sag,
        unused_effect,
-       // bounds: most of the 59 mm, and identical bits; h v = 0.3 mm at 0.3 m/s
+       // bounds: most of the 59 mm, and equality bit for bit; twice h v, which is 0.3 mm at 0.3 m/s
        {{apart, 0, 1, 40}, {within, 2, 3, 0}},
        {{within, 4, 0, 0.6}, {within, 5, 1, 0.6}, {within, 6, 4, 0}}},
       {"over-relaxation",

@@ -77,7 +77,8 @@ EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& ou
   return row;
 }
 
-/// Adds 200 rows at equal intervals, the first 40, and rows at indices that grow by 1.12 to resolve the beginning.
+/// Adds 200 rows at equal intervals and, to resolve the beginning, the first 40 rows and rows at indices that grow by a
+/// factor of 1.12.
 void add_thinned(Table& table, const Method& method, const ThinnedLedger& ledger, double duration) {
   const std::vector<LedgerRow>& rows = ledger.rows();
   double worst = 0, next = 0;

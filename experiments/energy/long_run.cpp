@@ -107,8 +107,8 @@ MeasuredDamping measured_damping(const Method& method, double h, int steps) {
     if (path.v[i].cols() != path.x[i].cols() || !path.x[i].allFinite()) continue;
     const double energy = energy_of(scene.model, {path.t[i], path.x[i], path.v[i]}).total();
     if (i == 0) first = energy;
-    // the error of positions of 1 m is 1e-16 m, so that extensions of 1 mm have a relative error of 1e-13: far below
-    // this bound the energy is noise
+    // positions near 1 m are rounded by 1e-16 m, which is 1e-13 of the initial extension of 1 mm; the energy becomes
+    // noise only far below this bound
     if (!(energy > 1e-10 * first) || !(energy < 1e10 * first)) break;
     logs.emplace_back(path.t[i], std::log(energy / first));
   }

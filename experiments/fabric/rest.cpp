@@ -47,7 +47,7 @@ std::optional<Points> rest_near(const Scene& scene, const Points& guess) {
       // no step halves the forces, or lowers the energy by more than its rounding error: the remaining forces come from
       // the rounding of stiff springs
       if (largest_column(a) <= 1e-4 * gravity) {
-        if (shift <= 1e-9 * stiffest) return s.x;  // the matrix is positive definite even with a smaller shift
+        if (shift <= 1e-9 * stiffest) return s.x;  // already positive definite with a smaller shift
         solver.setShift(1e-9 * stiffest);
         solver.factorize(l.k);
         if ((solver.vectorD().array() > 0).all()) return s.x;

@@ -101,7 +101,8 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       if (r.ok() && runs.back().ok() && !finest)
         row.distance_to_finest = largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window);
       add(points, row);
-      // below 30 error bars, or below round-off, the error in the slope would exceed 0.05
+      // errors below 30 error bars would make the slope uncertain by more than 0.05; large errors are not yet a power
+      // of the step
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
     const auto fit = asymptotic_order(good);

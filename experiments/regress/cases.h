@@ -76,10 +76,10 @@ inline bool covers_all(const Selection& selection) { return selection.filter.emp
 bool selected_by_default(const std::string& method);
 bool passes(const std::string& filter, const std::string& scene, const std::string& method);
 
-/// Every scene under every method, up to an estimated cost of 0.5 s (20 s in full runs). Under a scene's own method,
-/// there are also cases without each of its ingredients, which help to separate causes. Includes methods that refuse a
-/// scene, because a refusal is behaviour, too. Throws InputError if the filter matches nothing. Empty if all matches
-/// cost too much.
+/// Every scene under every method, up to an estimated cost of 0.5 s (20 s in full runs). For a scene's own method,
+/// further cases leave out one ingredient each, which helps to separate causes. Includes methods that refuse a scene,
+/// because a refusal is behaviour, too. Throws InputError if the filter matches nothing. Empty if all matches cost too
+/// much.
 std::vector<Case> cases(const Selection& selection);
 
 }  // namespace crosscheck

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case and the name of its result. Tolerances take three more runs.
+/// A case and the name of its result. Tolerances take three or four more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -27,7 +27,7 @@ struct JobResults {
   std::vector<FailedPoint> failures;  // cases without a result, because of a crash
 };
 
-/// Row by which the process that ran the case passes a quantity on.
+/// A quantity as the process that ran the case passes it to the parent.
 struct QuantityRow {
   TABLE("quantities");
   COLUMN(std::string, test_case, "case", "1", "scene, method and the removed ingredient");
@@ -107,7 +107,7 @@ std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1
 /// False if the method refused the scene.
 bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
 
-/// Reads the baselines of scenes. An invalid file adds a row.
+/// Reads the baselines of scenes. Reports a missing, stale or unreadable file as a failed row.
 class BaselineCache {
  public:
   BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
@@ -145,7 +145,8 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// The other engine's quantities as expected values. Ignores those of only one engine; both have a verdict.
+/// The other method's quantities as expected values. Ignores quantities that only one of the methods has; both always
+/// have a verdict.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;

@@ -21,7 +21,7 @@ bool single(const Method& method, const CaseRun& case_run) {
   return method.family().single_precision;
 }
 
-/// To two digits.
+/// Rounds upwards to two digits.
 double rounded_up(double tolerance) {
   if (!(tolerance > 0)) return 0;  // all values with this unit are exactly zero
   const double unit = std::pow(10, std::floor(std::log10(tolerance)) - 1);
@@ -92,7 +92,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const auto moved_by = [&](double size, unsigned seed) {
     Case other = test_case;
     other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
-    // the error also refers to the closed form of the original scene if the moved scene has none
+    // passes the original case, so that errors refer to its closed form even if the moved scene has none
     return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;

@@ -90,8 +90,8 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   if (system.size() > 90)
     return {0, -1, "damping and stiffness have different modes, and the step matrix of the whole scene is too large"};
   const LeapfrogMatrix leapfrog(system);
-  // eigenvalues of a neutral step are at 1; where two of them meet, they are off by the square root of the rounding
-  // error
+  // eigenvalues of a neutral step have modulus 1; where two of them meet, they are off by the square root of the
+  // rounding error
   auto unstable = [&](double h) { return radius_of(rule, leapfrog, system.size(), h) > 1 + 1e-6; };
   constexpr int walk = 60;
   for (int i = 1; i <= 2 * walk; ++i)

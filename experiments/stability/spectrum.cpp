@@ -215,8 +215,8 @@ std::optional<State> converged_rest(const Scene& scene) {
   return s;
 }
 
-/// True if the stiffness is negative in some direction, because the signs of the pivots of K are those of its
-/// eigenvalues (J. J. Sylvester, 1852). Adds a billionth of the largest stiffness to allow for rounding.
+/// True if the stiffness is negative in some direction: K then has a negative pivot, because its pivots have the signs
+/// of its eigenvalues (J. J. Sylvester, 1852). Adds a billionth of the largest stiffness to allow for rounding.
 bool is_saddle(const Model& model, const State& state) {
   const Linearised l = linearised(model, state);
   const double rounding = 1e-9 * stiffest_of(model);

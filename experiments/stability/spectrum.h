@@ -60,9 +60,9 @@ struct Equilibrium {
 };
 /// The state of rest of experiments/measures.h, refined by Newton steps to the last digits: no acceleration exceeds
 /// 1e-11 of what the particle's springs could cause. A rotation rests at the origin. An equilibrium with negative
-/// stiffness in some direction (omega^2 < 0) is a saddle, where motions that start in a plane of symmetry end, and is
-/// not accepted as rest. Random pushes of at least a hundredth of the shortest spring move the scene away from it,
-/// until a stable rest is found. The search ends without a rest after three attempts.
+/// stiffness in some direction (omega^2 < 0) is a saddle and not accepted as rest, although motions that start in a
+/// plane of symmetry end there. Random pushes of at least a hundredth of the shortest spring move the scene away from
+/// it, until a stable rest is found. The search ends without a rest after three attempts.
 Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

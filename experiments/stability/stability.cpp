@@ -69,7 +69,7 @@ bool shows_failure(const Method& method) {
          method.stepper->evaluations == 1 && method.stepper->symplectic;
 }
 
-/// The run has `per_sample` steps in each interval h, and may fail early.
+/// Samples of a run at intervals h, each of which has `per_sample` steps. The run may fail early.
 Trajectory steps_of(const Method& method, const Scene& scene, double h, int per_sample, int samples) {
   Recorder recorder;
   Run run{h / per_sample, h * samples, samples};
@@ -216,7 +216,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
   if (measured.kind == MeasuredLimit::found) {
     row.measured = measured.limit(), row.precision = measured.precision();
     if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
-    // uses a perturbation large enough to be visible
+    // perturbs by more than the search does, so that the way of failing shows within the run
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
     if (!base.at_rest) add_errors_beside_limit(scene, method, row);

@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-/// One per net.
+/// One point per net.
 std::vector<Point> effective_stiffness_points(bool full);
 
 }  // namespace crosscheck

@@ -96,8 +96,8 @@ struct DampingRow {
          "equivalent drag by the stability function of the rule; empty if the rule has none");
 };
 
-/// Appends the ledger of one run. If the contact loss was inferred, the balance is not closed, and the column of its
-/// error stays empty.
+/// Appends the ledger of one run. If the contact loss was inferred from the energy balance, the balance cannot be
+/// checked, and the column of its error stays empty.
 void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool contact_inferred);
 
 }  // namespace crosscheck

@@ -107,7 +107,7 @@ bool differ(const Timing& a, const Timing& b, double noise) {
 
 namespace {
 
-/// The first part of a run, with one sample: more would cost as much as some steps of a small scene.
+/// The first part of a run, with one sample: further samples would cost as much as some steps of a small scene.
 Run part_of(const TimedRun& turn, double share) {
   Run part = turn.run;
   part.samples = 1;
