@@ -191,8 +191,7 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       const Trial& t = a.trials[a.chosen];
       EXPECT_LE(*t.error + a.error_bar, tolerance);
       EXPECT_NEAR(a.checked, *t.error, 1e-9 * tolerance + 1e-12);
-      // doubling the step at least about doubles the error, because the order is at least 1; steps divide the sampling
-      // interval
+      // at an order of at least 1, twice the step has about twice the error or more; steps divide the sampling interval
       const auto truth = truth_of(scene, default_run(scene));
       crosscheck::Run twice = default_run(scene);
       twice.step = 2 * t.step;

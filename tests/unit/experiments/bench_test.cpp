@@ -250,8 +250,8 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
 TEST(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
   const Measured measured(measure_implicit_steps, ImplicitStepOptions{{24}, {60, 240}, hasty});
   ASSERT_EQ(measured.rows().size(), 2 * compared_instruction_sets().size());
-  // One solver stops at 1e-12 of the forces, the other at round-off. The softest mode has no stiffness but inertia, and
-  // falls by more than 1 mm in a step.
+  // One solver stops at 1e-12 of the forces, the other at round-off. Only inertia resists the softest mode, which falls
+  // by more than 1 mm in a step.
   for (const BenchRow& row : measured.rows()) EXPECT_LE(*row.apart, 1e-13);
 }
 

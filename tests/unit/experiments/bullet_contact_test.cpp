@@ -54,7 +54,7 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
     };
     EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet does not compensate the whole weight, so that the particle settles
     EXPECT_LT(way(2 * limit), 1e-5);
-    // 5 % below the limit, the particle accelerates with 5 % of g sin(30) for 0.5 s.
+    // With a friction 5 % below the limit, the particle accelerates by 5 % of g sin(30) for 0.5 s.
     EXPECT_NEAR(way(0.95 * limit), 0.05 * g * 0.5 * 0.125, 0.02 * 0.05 * g * 0.5 * 0.125);
   }
 }

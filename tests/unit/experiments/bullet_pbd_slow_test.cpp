@@ -31,8 +31,8 @@ TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
         fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
     count += share == 0.1 || share == 0.5;
     EXPECT_LT(std::abs(deviation), 2e-3);  // required bound
-    // The last Gauss-Seidel pass starts at the strain 1e-4 / (1 - kLST), and removes half of that strain more than
-    // Hooke's law would.
+    // The last Gauss-Seidel pass starts at the strain e = 1e-4 / (1 - kLST), at which the link law is stiffer than
+    // Hooke's law by the fraction e / 2.
     EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
   }
   EXPECT_EQ(count, 18);  // 2 shares, 3 steps, 3 iterations
@@ -56,7 +56,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
     EXPECT_GT(at_smallest, 1e-4);     // but above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, which is a quarter at half the step
+    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, of which half the step leaves a quarter
   }
 }
 
@@ -82,7 +82,7 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
       EXPECT_NEAR(at(net, method, 1. / 480, 1).by_sag.value(), 1, 0.03);
     }
     // Sixteen sub-steps are equivalent to a sixteenth of the step: k h^2 / mu falls by a factor of 256, and so does the
-    // lack of stiffness.
+    // missing stiffness.
     const double one = 1 - at(net, "mysim/xpbd", game, 1).by_sag.value(),
                  sixteen = 1 - at(net, "mysim/xpbd", game, 16).by_sag.value();
     EXPECT_LT(sixteen, one / 50);
@@ -178,8 +178,7 @@ TEST(BulletPbdForces, AddedToNodesConvergeToTheScenesSolution) {
     for (const double h : {1e-3, 5e-4, 2.5e-4})
       error.push_back(sup_rms(with_law(scene, SpringLaw::bullet_link, "bullet/pbd", h), truth));
     fmt::print("{}: {:.3g}, {:.3g}, {:.3g} m\n", what, error[0], error[1], error[2]);
-    // First order. The bound is two-sided, because an error that does not depend on the step would stop the
-    // convergence.
+    // First order. The bound is two-sided, so that it also detects an error that does not depend on the step.
     EXPECT_NEAR(slope(error[1], error[2]), 1, 0.15) << what;
     EXPECT_LT(error[2], 2e-3) << what;
   }

@@ -113,7 +113,7 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       const Scene scene = on_slope(degrees, limit / 1.001, Ground::plane);
       const auto exact = exact_solution(scene);
       ASSERT_TRUE(exact);
-      EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // a millimetre of 1 m, cancelled
+      EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // rounding of terms of 1 m
     }
   // detects two failures: the position-based world creeps, and the sticky rule holds everything
   EXPECT_EQ(cone(find_method("bullet/pbd"), 35, 0.35, Ground::plane, 1e-3, out)->state, ContactState::neither);

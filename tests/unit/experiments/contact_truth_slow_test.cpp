@@ -104,7 +104,8 @@ TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
     for (size_t i = 0; i < truth->contact.size(); ++i)
       EXPECT_NEAR(truth->contact[i], energy(0) - energy(static_cast<int>(i)), truth->contact_bars[i] + 1e-12) << i;
     EXPECT_EQ(truth->contact.empty(), truth->under_contact_rule);
-    // A first-order solution has an error bar that says little about a second-order solution.
+    // The other solution is of second order. Its error may be far below its bar, which comes from a comparison with a
+    // first-order one.
     if (truth->under_contact_rule) {
       EXPECT_GT(error, truth->error_bar / 40);
     }

@@ -51,7 +51,7 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
   EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // slope of a straight line, up to the rounding of energies of 2 J
   EXPECT_LT(a.oscillation, 1e-6);      // bound: square root of the rounding error of r^2
   EXPECT_NEAR(a.growth, 1, 1e-12);
-  EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J of 2 K over 100 s
+  EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J over 100 s, at 2 K = 4 J
   EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // slope fitted to a sine: at most 6 A / (omega T^2)
   EXPECT_NEAR(b.oscillation, 0.5 / std::sqrt(2), 0.01);
   EXPECT_LT(b.growth, 0.01);
@@ -94,11 +94,11 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
     for (const auto method : {"symplectic-euler", "leapfrog", "suzuki4", "bullet/deformable-explicit"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const ResidualStatistics r = long_run(method, scene, 2e-3, 20000);
-      // A random walk would have the exponent 0.5, and a drift 1. The bound is a tenth of 0.5, because the maxima of
-      // two vibrations rarely coincide.
+      // A random walk would have the exponent 0.5, and a drift 1. The bound is a tenth of 0.5, not 0, because the
+      // maxima of two vibrations rarely coincide.
       EXPECT_LT(r.growth, 0.05);
-      // For Omega of twice the slowest frequency (the pendulum's swing), 6 A / (Omega T) as above is 0.03; the bound is
-      // twice as large.
+      // With twice the slowest frequency (the pendulum's swing) as Omega, the bound 6 A / (Omega T) for a sine is 3 %
+      // of A; twice that is allowed.
       EXPECT_LT(std::abs(r.drift) * 40, 0.06 * r.worst);
     }
     for (const auto method : {"trapezoidal", "rk4"}) {

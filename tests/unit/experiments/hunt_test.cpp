@@ -85,7 +85,7 @@ TEST(Shrink, KeepsWhatTogetherIsNeeded) {
   const double duration = draft.duration;
   const Shrunk smallest = shrink(
       draft, [&](const Scene& s) { return s.model.particles.mass.sum() > 1.05 && s.duration > 0.3 * duration; }, 1000);
-  EXPECT_GE(smallest.draft.size(), 2);  // a mass may become 1
+  EXPECT_GE(smallest.draft.size(), 2);  // at least two, because a mass may become 1
   EXPECT_GT(smallest.draft.particles[0].mass + smallest.draft.particles[1].mass, 1.05);
   EXPECT_EQ(smallest.draft.duration, duration / 2);
 }

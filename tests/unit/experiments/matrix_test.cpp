@@ -48,8 +48,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   EXPECT_EQ(compared, 6);
 }
 
-/// The example engine, installed under the name of a kept program whose engine offers springs as user-supplied forces
-/// that follow another rule.
+/// Installs the example engine as the kept program of Rapier, which also offers springs as user-supplied forces.
 TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   const SetVariable cache("CROSSCHECK_CACHE", folder_.c_str());
   const auto program = kept_program("rapier");

@@ -312,8 +312,8 @@ TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   tables.add(t);
   conclude_speed_accuracy(tables);
   const Table& best = *tables.table("speed-accuracy-cheapest");
-  EXPECT_EQ(std::get<double>(best.at(0, "distance")), 9e-3);  // 10 %
-  EXPECT_EQ(std::get<double>(best.at(1, "distance")), 7e-3);  // 1 %: 9 + 2 > 10
+  EXPECT_EQ(std::get<double>(best.at(0, "distance")), 9e-3);  // bound: 10 % of 1 m
+  EXPECT_EQ(std::get<double>(best.at(1, "distance")), 7e-3);  // bound: 1 %, 10 mm, which 9 + 2 mm exceed
   EXPECT_EQ(std::get<std::string>(best.at(2, "remark")), "below the error bar of the truth");
 }
 

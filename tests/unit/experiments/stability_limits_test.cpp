@@ -380,7 +380,7 @@ TEST(MeasuredLimit, EndsAtARefusalOnlyWhereThatComesFirst) {
     EXPECT_EQ(m.kind, refused < limit ? MeasuredLimit::refused_above : MeasuredLimit::found);
     EXPECT_LT(m.held, std::min(refused, limit));
     EXPECT_GT(m.held, std::min(refused, limit) / 1.1);
-    // If the limit is below the length of refused steps, no refused step was tried.
+    // If the search ends at the limit before it reaches refused steps, the reason mentions no refusal.
     EXPECT_EQ(m.reason.ends_with(" s has no answer: too long"), refused < limit) << m.reason;
   }
 }

@@ -28,7 +28,8 @@ std::vector<std::string> lines_with(const std::string& word) {
 }
 
 TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
-  // With dashpots, the world reports a different law, so that the README must not claim that it follows the same rule.
+  // With dashpots, Bullet's explicit world reports a different law, so that the README must not promise the same rule
+  // for them.
   const Scene jelly = load_scene("jelly");
   ASSERT_TRUE(jelly.model.find<Dashpots>());
   const Outcome with = run_and_record("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;

@@ -149,8 +149,8 @@ inline TrialScene trial_scene(Random& random) {
   return trial;
 }
 
-/// Extent and speed of a run at every step, computed from positions alone, and the verdicts of monitors that do not
-/// stop the run.
+/// Observes the extent and speed of a run at every step, computed from positions alone, and the verdicts of monitors
+/// that do not stop the run.
 class UnstoppedRun : public Observer {
  public:
   /// Uses two monitors: one observes all steps, the other only the states that verdicts are normally based on.
