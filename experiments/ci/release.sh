@@ -4,7 +4,7 @@
 #
 #   experiments/ci/release.sh [OUT]      OUT is out/release by default
 #
-# Runs on Debian 12 as root (.ci/bare-root makes the Debian 13). Packages the commit that is checked out; refuses
+# Runs on Debian 12 as root (.ci/bare-root provides Debian 13). Packages the commit that is checked out; refuses
 # uncommitted changes, and versions that differ between the files that state them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Slow tests that rarely fail. `./crosscheck test` and CI leave them out. Run all of them once a week, and before you
-# finish a change the parts that it touches:
+# Slow tests that rarely fail. `./crosscheck test` and CI leave them out. Run all of them once a week and, before you
+# finish a change, the parts that it affects:
 #
 #   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments, all of them
 #   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that other runs leave out
