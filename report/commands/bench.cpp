@@ -42,7 +42,7 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// Uses the last line of each scene; of the shipped scenes, only the one with the smallest gain of mysim's kernel.
+/// Represents each shipped scene by its last line, and keeps only the scene on which mysim's kernel gains least.
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)

@@ -25,9 +25,8 @@ struct BenchLine {
   std::string heading() const;
 };
 
-/// Returns one line per comparison, in the order of the rows. Of the shipped scenes, keeps only the one with the
-/// smallest gain of the engine's own kernel. The figure shows the kernels on the middle cloth, and each peer's best
-/// run.
+/// Returns one line per comparison, in the order of the rows. Of the shipped scenes, keeps only the one on which
+/// mysim's kernel gains least. The figure shows kernels on the middle cloth only, and only the best run of each peer.
 std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows);
 
 /// CPU-time ratios of the representative lines: two markers each, for the best and the baseline instruction set.

@@ -85,8 +85,8 @@ Json json_of(const std::vector<Answer>& answers) {
   return all;
 }
 
-/// JUnit XML with one test case per answer: failed if the relation is broken; skipped if the break is known, or the
-/// relation is not applicable.
+/// JUnit XML with one test case per answer: failed if the relation is broken for an unknown cause; skipped if the cause
+/// is known, or the relation is not applicable.
 std::string junit_of(const std::vector<Answer>& answers) {
   std::vector<TestCase> cases;
   for (const Answer& a : answers)
@@ -98,7 +98,7 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// Draws each unknown break at its time, or at the end if the time is unknown. Omits those that cannot be drawn.
+/// Draws violations without a known cause, at their times or else at the end. Omits those that cannot be drawn.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {

@@ -91,7 +91,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   return work;
 }
 
-/// Draws scenes. A scene of experiment `engines` is drawn from the same runs, which saves a third of the work.
+/// Draws scenes. Reuses the runs of experiment `engines` if it has the scene, which saves a third of the work.
 class Pictures {
  public:
   Pictures(const std::vector<Scene>& scenes, const FiguresOptions& options, const FigureSize& size,
@@ -107,7 +107,7 @@ class Pictures {
     };
   }
 
-  /// The rows of each point are its picture's entry in the catalogue.
+  /// One point per scene, whose result is the picture's entry in the catalogue.
   std::vector<Point> points() const {
     std::vector<Point> points;
     for (const Scene& scene : scenes_)
@@ -116,7 +116,7 @@ class Pictures {
     return points;
   }
 
-  /// Draws each scene of `engines` when its point is done. A picture that fails is drawn again with the other figures.
+  /// Makes the points of `engines` draw their scenes, too. Pictures that fail are tried again with the other figures.
   void draw_with_engines(std::vector<Point>& points, const Store& store) const {
     const std::vector<Point> own = this->points();
     for (Point& point : points)
@@ -195,7 +195,7 @@ void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& name
   std::erase_if(charts, [&](const Chart& chart) { return std::ranges::count(names, figure_info(chart)->name) == 0; });
 }
 
-/// Draws charts in parallel, after `drawings`. Returns the charts' entries of the catalogue.
+/// Draws charts in parallel, after `drawings`. Returns the charts' entries in the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
                                      const std::filesystem::path& folder, const Store& store, Problems& problems,
                                      std::vector<Point> drawings = {}) {

@@ -62,7 +62,7 @@ std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// The baseline stores at most eight times.
+/// Compares only at the sampling times that a baseline contains, of which there are at most eight.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
@@ -80,7 +80,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   e.old_result->trajectory.t = {shape->t}, e.old_result->trajectory.x = {shape->x};
 }
 
-/// Compares both runs at every sample. The tolerance of a sample is that of the next time that a baseline would store.
+/// Compares both runs at every sample, with the tolerance of the next time for which baselines have one.
 void beside_other(FailureDetails& e, const Method& against) {
   Case old = e.test_case;
   old.method = against;

@@ -58,7 +58,7 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
-/// For --engines all: adds the built engines, and prints how to build the others. Defaults: shared rules, small scenes.
+/// For --engines all: adds built engines, and prints how to build the others. Defaults to shared rules on small scenes.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
   if (options.methods.empty()) {
@@ -75,7 +75,7 @@ ReportOptions with_all_engines(ReportOptions options) {
   return options;
 }
 
-/// Computes the points in separate processes, and returns descriptions of failures.
+/// Returns a function that computes points in separate processes.
 Workers workers_of(const Store& store) {
   return [&store, patience = LockPatience()](const std::vector<Point>& points) {
     std::vector<std::string> problems;

@@ -16,7 +16,7 @@ struct SceneSummary {
   std::string given;
   std::map<Family, long> springs;
   double omega = 0;                                      // rad/s
-  std::optional<double> gamma;                           // 1/s, if all particles have the same
+  std::optional<double> gamma;                           // drag rate (1/s), if all particles have the same
   std::vector<std::pair<std::string, double>> critical;  // critical step (s) of each explicit rule; 0: unstable at all
                                                          // steps
   ResourceEstimate demand{};

@@ -146,7 +146,7 @@ std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// Text on the number of ratios in which a time is scaled from a part of its run; empty if there are none.
+/// States in how many ratios a time is scaled from a part of its run; empty if in none.
 std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
   for (const EngineSpeedRow& row : rows)

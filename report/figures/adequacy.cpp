@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// `cells_less` is subtracted from the number of particles.
+/// Curve of a value over the number of particles minus `cells_less`.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};
@@ -42,9 +42,8 @@ bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
-/// True if the sag at rest keeps growing with the logarithm of the number of cells. For an error proportional to
-/// 1/cells, the growth per log(cells) on four grids of 8 to 24 particles would halve between the first pair and the
-/// last.
+/// True if the sag at rest keeps growing with the logarithm of the number of cells. If its error were proportional to
+/// 1/cells, its growth per log(cells) would halve from the first to the last pair of four grids of 8 to 24 particles.
 bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   std::vector<double> growth;
   const GridRow* before = nullptr;
@@ -235,7 +234,7 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
                   ? fmt::format("Nothing can be left out within {}: any removal costs at least {} ({}).", tolerance,
                                 nice_length(of_smallest), smallest)
                   : fmt::format("Nothing can be left out within {}: no smaller model gives an answer.", tolerance);
-  // at rest, no removal causes an error
+  // a scene at rest has no curves, because no removal causes an error
   const bool any = !f.curves.empty();
   if (!any) f.failures.clear();
   Chart chart = described("{scene}-adequacy", std::move(f), "scene"_a = scene, "commit"_a = commit,
@@ -255,7 +254,7 @@ void add_question(Chart& chart, const std::vector<Scene>& shown, const std::stri
     chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
 }
 
-/// Table with the removal of smallest error for each scene that has no chart of its own.
+/// Table of the removal with the smallest error, for each scene that has no chart of its own.
 PageTable least_removals_of(const std::vector<AdequacyRow>& rows, const std::vector<std::string>& scenes) {
   PageTable page{"The removal with the smallest error", {"scene", "removed", "error", "error / motion"}, {}};
   for (const std::string& scene : scenes) {

@@ -49,7 +49,7 @@ class Fineness {
   double unit_ = 0;  // linear axes only
 };
 
-/// Distinguishes "quantity / unit" from a ratio.
+/// True for a unit, as in "quantity / unit"; false for the denominator of a ratio.
 bool is_unit(std::string_view text) {
   constexpr std::string_view units[] = {"s", "ms", "ns",  "m",    "cm", "mm",      "µm",   "J",    "N",    "kg",
                                         "°", "%",  "rad", "mrad", "1",  "degrees", "flop", "byte", "Gflop"};
@@ -148,7 +148,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // these marks are few, and only distinguish lines: they do not stand for runs
+  // a line without a marker on every point has a few marks, which only distinguish it from other lines
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();
@@ -352,7 +352,7 @@ const char* colour_of(const MethodFamily& family, bool representative) {
 }  // namespace
 
 Json method_looks_json(std::span<const std::string> methods) {
-  // one colour per program (style.css); the program's options differ in their marks
+  // one colour per program (style.css); methods that differ only in the program's options have different marks
   constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5",
                                           "outside6", "outside7", "outside8"},
                              marks[] = {"triangle", "diamond", "square", "circle"};

@@ -15,8 +15,8 @@
 
 namespace crosscheck {
 
-/// Builds of the methods in a chart, given by name or as "ENGINE/": "mysim and odeint built here, Bullet by Debian for
-/// generic x86-64". Omits engines without a method in the chart.
+/// Describes the builds of a chart's methods, which are given by name or as "ENGINE/": "mysim and odeint built here,
+/// Bullet by Debian for generic x86-64". Omits engines without a method in the chart.
 std::string builds_text(const std::vector<std::string>& methods);
 
 /// Title of the points whose time is scaled from a part of the run. Figures ring the markers of these runs.
@@ -49,8 +49,8 @@ struct Snapshot {
   Scene scene;
   std::vector<Panel> panels;
   Shot shot;
-  /// Times (s) with captions. If there are any, there is one picture, in a file of its own, for each of these times
-  /// instead of the shot's time.
+  /// Times (s) with captions. If there are any, each gets a picture in a file of its own, and the shot's time is
+  /// unused.
   std::vector<std::pair<double, std::string>> moments = {};
 };
 
@@ -78,8 +78,8 @@ using fmt::literals::operator""_a;
 /// A figure's text for `word` with its values inserted; empty if the figure has no such text.
 std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values = {});
 Chart described_chart(const std::string& key, AnyFigure figure, fmt::format_args values);
-/// Chart of a figure. The figure's own texts replace those missing in texts.md. If the figure has neither curves nor
-/// failures, the chart keeps only its text, or else the caption.
+/// Chart of a figure. Texts from texts.md replace the figure's own. A figure with neither curves nor failures is
+/// dropped; its caption then becomes the chart's text, if the chart has none.
 template <class... Values>
 Chart described(const std::string& key, AnyFigure figure, const Values&... values) {
   return described_chart(key, std::move(figure), fmt::make_format_args(values...));
@@ -139,7 +139,7 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 
 /// "Scene cloth-hang; step 500 µs; commit abc."
 std::string caption_of(const Scene& scene, const std::string& commit);
-/// Texts for the tier of a figure: the scene's truth with its error bar, or another engine with the round-off bound.
+/// Tier of a figure: the scene's truth with its error bar; or another engine, with what round-off alone may cause.
 std::string tier_of(const SceneData& facts);
 std::string another_engine(const SceneData& facts);
 

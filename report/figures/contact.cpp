@@ -143,7 +143,7 @@ RunsOverTime runs_over_time(const std::vector<DrapeTimeRow>& rows, double step) 
   return runs;
 }
 
-/// The curves of a quantity, where it is positive.
+/// Curves of a quantity over time. Omits values that are not positive.
 Figure curves_over_time(const RunsOverTime& runs, OptionalNumber DrapeTimeRow::*value, double factor) {
   Figure f;
   f.x.low = 0;

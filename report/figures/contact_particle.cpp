@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// Results on the slopes of one surface, at one step.
+/// A method's results on the slopes of one surface, at one step.
 struct ConeAnswers {
   std::vector<std::pair<double, double>> points;  // friction / tan(slope), distance slid / frictionless distance
   int right = 0, all = 0, creeping = 0, stuck = 0;
@@ -124,7 +124,7 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
                    "speed"_a = rows.back().speed_by_theory, "commit"_a = commit);
 }
 
-/// Error against step, with and without +events, of a slide with friction that leaves the ball. Needs both runs.
+/// Error against step for a particle that slides with friction off a ball, for methods run with and without +events.
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;

@@ -94,7 +94,7 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
                              const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
                              const std::vector<std::vector<Place>>& others) {
   const double width = width_of(words), half = 6.2;
-  double best = 60;  // at a higher cost, a key is easier to read
+  double best = 60;  // if every place costs more, a key is easier to read
   std::optional<Rect> found;
   const auto attempt = [&](double left, double middle, double penalty) {
     const Rect r{left, left + width, middle - half, middle + half};
@@ -286,7 +286,7 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// Explains the marks above the frame or, given space, a single kind of cross next to the top row's last cross.
+/// Puts the meanings of marks above the frame; that of a single kind of cross, if it fits, next to the top row's last.
 void CurvePlot::place_kinds() {
   for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
     remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});

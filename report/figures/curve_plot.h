@@ -37,7 +37,7 @@ struct PlotRange {
 };
 PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts);
 
-/// True if the name is shown in the key, because scattered marks have no end at which a label could stand.
+/// True if the name is shown in the key, because scattered marks have no end next to which a label could be placed.
 bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part);
 
 std::string kind_of(const FailureMark& mark);
@@ -55,7 +55,7 @@ class CurvePlot {
     frame(0);
     fill_board();
     if (!place_names()) {
-      // put labels without space next to their curves into a column at the right
+      // labels that do not fit next to their curves go into a column at the right
       double widest = 0;
       for (const size_t i : ending_right_) widest = std::max(widest, width_of(parts_[i].name));
       frame(widest + 24);

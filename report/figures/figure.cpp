@@ -136,7 +136,7 @@ MethodStyle style_of(const std::string& method) {
   }
   unsigned sum = 0;
   for (char c : method) sum = 31 * sum + static_cast<unsigned char>(c);
-  // two programs of the same colour differ in dash or marker
+  // programs of the same colour usually differ in dash or marker
   constexpr size_t n = std::size(spare_styles);
   return styled({spare_styles[sum % n].colour, spare_styles[sum / n % n].dash, spare_styles[sum / n / n % n].marker});
 }

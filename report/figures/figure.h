@@ -19,7 +19,7 @@ struct MethodStyle {
   int marker;          // gnuplot point type
 };
 MethodStyle style_of(const std::string& method);
-/// Style number `place`, counted from 0, for built-in methods that have no style of their own. No other method gets it.
+/// Spare style number `place`, from 0, for a built-in method without a style of its own. No other method uses it.
 MethodStyle spare_style(size_t place);
 
 struct Tooltip {
@@ -173,7 +173,7 @@ struct CellKind {
 
 struct HeatMap : FigureInfo {
   struct HeatCell {
-    double x, y;  // centre, in logarithms
+    double x, y;  // centre on the logarithmic axes
     int kind;     // index in `kinds`
     Tooltip tooltips = {};
   };

@@ -29,7 +29,7 @@ struct MapGrid {
   double left, right, bottom, top;  // edges of the cells
 };
 
-/// Panels may have different cells over the same axes.
+/// Cells of a panel. Panels share axes, but their cells may differ in size.
 MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {

@@ -121,7 +121,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       f.x.high = *facts.contact_until;
       f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
     }
-    // if all curves are zero, the chart has only its text, which says so
+    // omit the chart if there are no curves, or if all of them are zero
     const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
       return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
     });

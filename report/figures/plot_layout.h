@@ -80,7 +80,7 @@ std::string key_commands(const Sheet& sheet, const std::vector<KeyEntry>& entrie
 /// Truncates a text that is wider than `room`, preferably at a colon, a comma or a parenthesis.
 std::string shortened(const std::string& text, double room);
 
-/// The method in a title, whose prefix may be missing; empty if the title names no method.
+/// The method in a title, where "mysim/" may be missing; empty if the title names no method.
 std::string method_named(const std::string& title);
 
 /// Title for readers: engine, a space, and the integrator. If two programs in the titles `beside` would have the same

@@ -143,7 +143,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
   size_t good = 0;
   int beyond = 0, uncounted = 0;
-  // draw these marks separately, beneath all methods, so that a pointer finds the run
+  // rings around scaled times; drawn beneath all methods, so that the pointer finds the run's own mark
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const Row& run : s.runs) {

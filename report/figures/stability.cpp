@@ -70,7 +70,7 @@ Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, 
   const std::string columns_of = f.columns_of;
   Chart chart = described("stability-limits", any ? AnyFigure(std::move(f)) : std::monostate{},
                           "effort"_a = effort_text(rows), "scene"_a = columns_of, "commit"_a = commit);
-  if (!any)  // limits are in tables if theory predicts none of them
+  if (!any)
     for (const std::string& each : distinct(rows, &LimitRow::scene)) chart.tables.push_back(limits_table(rows, each));
   return chart;
 }
@@ -82,7 +82,7 @@ std::string signed_text(double value) {
   return text;
 }
 
-/// Growth of the two rules that are unstable at every step, which is too slow to see in runs.
+/// Growth with the two rules that are unstable at every step. It is too slow to be visible in runs.
 std::optional<Chart> growth_chart(const std::vector<GrowthRow>& rows) {
   PageTable page{"Growth of the fastest vibration per time step, where no time step is stable.",
                  {"scene", "method", "h ω", "predicted", "measured"},

@@ -23,7 +23,7 @@ std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   return fastest;
 }
 
-/// The scene `always`, for which the columns are, and up to three others whose frequencies differ most.
+/// At most four scenes whose frequencies differ most. `always`, the scene of the columns, is one of them.
 std::vector<StepLimits::SceneMark> marked_scenes(const std::map<std::string, double>& fastest,
                                                  const std::string& always) {
   std::vector<StepLimits::SceneMark> all;

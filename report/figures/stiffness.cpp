@@ -86,8 +86,8 @@ struct EffectiveMeasure {
   const char *name, *net;
   OptionalNumber EffectiveStiffnessRow::*value;
 };
-// the period is measured on a chain only: cloths this small oscillate so fast that implicit rules damp them before the
-// second turning point
+// the period is measured on a chain only: the cloths of the experiment are small, and oscillate so fast that implicit
+// rules damp them before the second turning point
 constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};

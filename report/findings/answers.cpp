@@ -87,7 +87,8 @@ Findings difference_answer(std::span<const SceneData> data) {
   return {};
 }
 
-/// Another engine's method and mysim's representative at the same step, without contact and differing force laws.
+/// Largest difference between another engine's method and mysim's representative at the same step. Excludes scenes with
+/// contact, and runs with a different force law.
 struct EngineApart {
   std::string method;
   Largest apart = {};
@@ -220,8 +221,8 @@ Findings failed_runs_answer(std::span<const SceneData> data) {
            .words = {{"runs", std::to_string(all)}, {"which", listed(names)}}}};
 }
 
-/// The limit of the main scene in a state, and how all limits in that state agree with theory. If the scene has no
-/// state of rest, theory uses only the initial state, so the truth must have confirmed the limit.
+/// Step limit of the main scene in a state, and the agreement of all limits in that state with theory. A limit in the
+/// initial state must also be confirmed by the truth, because theory then ignores all later states.
 Findings limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
   const auto run = recommended_run(scene.name, recommended_part, rows);
   std::optional<LimitRow> shown;

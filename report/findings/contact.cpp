@@ -28,7 +28,8 @@ Findings cone_findings(const Facts& facts) {
   return out;
 }
 
-/// Errors on planes: of mysim's representative at the usual step, and of its methods for a particle coming to rest.
+/// Errors on planes at the usual step: those of mysim's representative, and the largest error of mysim's methods for a
+/// particle that comes to rest.
 Findings plane_findings(const Facts& facts) {
   const auto rows = rows_of<PlaneProbeRow>(facts.rows);
   if (rows.empty()) return {};
@@ -56,9 +57,9 @@ Findings plane_findings(const Facts& facts) {
   return out;
 }
 
-/// Positions after the comparison window. Compares each other engine's final difference with those between mysim's own
-/// rules, which share a contact rule and show how far positions are predictable. The rules used have an order above one
-/// and are stable without damping (Heun adds energy).
+/// Positions after the comparison window: each other engine's final difference, next to the differences between mysim's
+/// own rules. Those share a contact rule, and therefore show how far positions are predictable. Uses only rules that
+/// have an order above one and are stable without damping (Heun adds energy).
 Findings contact_findings(const Facts& facts) {
   std::vector<std::string> scenes;
   for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Largest residual / energy exchanged; nullopt at rest, or if it was not measured.
+/// Largest residual / energy exchanged; nullopt if no energy was exchanged or measured.
 std::optional<double> share_of(const EnergyRow& row) {
   if (!(row.turned_over.value_or(0) > 0)) return std::nullopt;
   return row.largest_residual.value_or(0) / *row.turned_over;
@@ -76,7 +76,7 @@ std::string off_text(double taken, double in_truth, double bar) {
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// Compares the energy taken by contact with the truth's, for representatives and mysim's method that deviates most.
+/// Compares the energy taken by contact with the truth's: for representatives, and for mysim's most deviating method.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;
@@ -89,7 +89,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       if (row.scene != scene || !row.contact || row.verdict != Verdict::ok || row.method == sticky_sphere) continue;
       const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
       if (row.method == ours) first = &row;
-      // mysim's methods need a measured contact energy: one inferred from the balance includes numerical damping
+      // mysim's methods need a measured contact energy; inferred from the balance, it would include numerical damping
       if (may_move_alike(row.method)) others.push_back(&row);
       if (!row.contact_inferred && row.method != ours && family_of(row.method).is_subject() &&
           (!furthest || off(&row) > off(furthest)))
@@ -137,7 +137,7 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
-/// Damping that other engines add to an undamped spring, and energy that they gain if their springs are forces.
+/// Damping that other engines add to an undamped spring, and energy that they gain if it acts by user-supplied forces.
 void damping_of_engines(std::vector<MatrixRow<false>> table, Findings& out) {
   std::erase_if(
       table, [](const MatrixRow<false>& row) { return family_of(row.method).is_subject() || !row.value || !row.bar; });

@@ -63,8 +63,8 @@ inline std::string range(const std::string& low, const std::string& high) {
 
 void add_once(std::vector<std::string>& words, const std::string& word);
 
-/// True for a method of the same rule whose difference exceeds round-off, although there is no contact, other law or
-/// chaos that would explain it.
+/// True for a method of the same rule whose difference exceeds round-off, and is explained neither by contact, nor by a
+/// different force law, nor by chaos.
 bool same_rule_differs(const SceneData& data, const MethodData& method);
 
 }  // namespace crosscheck

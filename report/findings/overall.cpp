@@ -55,7 +55,7 @@ Findings order_findings(const Facts& facts) {
                      {"declared", std::to_string(*worst.declared_order)}}}};
 }
 
-/// Invariants that hold in all methods of an engine. A violation without a known cause is a finding.
+/// Counts the invariants that hold for each engine's methods. Violations without a known cause are a separate finding.
 Findings relation_findings(const Facts& facts) {
   struct Counts {
     size_t asked = 0, held = 0, known = 0;

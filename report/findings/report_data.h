@@ -40,8 +40,8 @@ struct SceneData {
   double error_bar = 0;                       // m
   std::string truth;                          // derivation of the truth in one sentence
   std::optional<double> truth_until;          // s, if the truth ends early
-  // if the truth is the converged in-house contact rule, `tier` is empty, and these are the rule's tier, error bar and
-  // end
+  // s; set if the truth is the converged in-house contact rule: then `tier` is empty, and `error_bar`, `truth` and
+  // `truth_until` describe that rule
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;

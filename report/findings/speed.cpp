@@ -74,7 +74,8 @@ Findings speed_findings(const Facts& facts) {
   return out;
 }
 
-/// CPU times of the same rule by size of the cloth: of kernels for any spring graph, and of mysim's fused step.
+/// A peer's CPU time relative to mysim's for the same rule, over the sizes of a cloth: with mysim's kernels for any
+/// spring graph, and with its fused step.
 Findings cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;

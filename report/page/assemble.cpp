@@ -193,7 +193,7 @@ class Assembly {
     return images;
   }
 
-  /// Draws figures that open a chapter, for paper and readers without scripts, and missing pictures.
+  /// Draws missing pictures, and figures that open a chapter (for paper, and for readers without scripts).
   void draw(const Workers& workers) {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
@@ -223,7 +223,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// Draws the runs of the first screen, and a separate picture of the truth.
+  /// Draws the runs that the first screen shows of a scene, and the truth, next to each other.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
@@ -249,7 +249,7 @@ class Assembly {
     }
     const std::vector<PageImage> images = images_of(s);
     if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
-    // all moments have the camera of the first one, before the run diverges, moved back slightly
+    // all moments share the camera that fits the first one, at which the run has not yet diverged, moved back slightly
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, shots.front());

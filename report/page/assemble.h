@@ -38,13 +38,13 @@ Table certificate_table(const std::vector<Certificate>& certificates);
 /// Computes points, several in parallel. Returns descriptions of failures.
 using Workers = std::function<std::vector<std::string>(const std::vector<Point>&)>;
 
-/// Writes report.json, index.html, and the figures' data and scripts; draws the figures that open a chapter, and
-/// renders missing pictures. The folder must contain data/. `against` is the folder of an earlier report, or empty.
 struct WrittenReport {
   PageContent page;
   std::vector<std::pair<std::string, size_t>> blocks;  // size in bytes
   bool agree;                                          // true if engines with the same rule agree
 };
+/// Writes report.json, index.html, and the figures' data and scripts; draws the figures that open a chapter, and
+/// renders missing pictures. The folder must contain data/. `against` is the folder of an earlier report, or empty.
 WrittenReport write_report(ReportData& data, const std::filesystem::path& folder, const std::filesystem::path& against,
                            const Workers& workers);
 

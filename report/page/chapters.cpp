@@ -127,7 +127,8 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
-/// The last fold contains the least important entries.
+/// Folds for findings, invariants and entries. If there would be more than `most_folds`, the last one contains the
+/// least important entries.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   Findings said;

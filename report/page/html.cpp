@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 std::string prose(const std::string& text) {
-  // "8 x 8", "0.32 ± 0.01", "< 3"; units and thousands; "1.0e-12"
+  // `following`: "8 x 8", "0.32 ± 0.01", "< 3"; `unit`: also groups of thousands; `negative`, `positive`: "1.0e-12"
   static const Pattern following("( x|\\(of|±|<) (?=\\d)"),
       unit(
           "(\\d) (?=(?:%|mm/s|m/s|mm|µm|ms|µs|m|s|J|Hz|kg|N/m|N|MB|ω|±|x|times|degrees)(?![A-Za-z])|\\d{3}(?![\\d.]))"),

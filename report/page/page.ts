@@ -11,7 +11,7 @@ export function startPage() {
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
   // the other charts are unpacked when one of them is first needed
   const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
-  // Contents of folds and cards may be packed; they are unpacked before the page is searched there.
+  // Contents of folds and cards may be packed; they are put back before anything is looked up in them.
   const held = document.getElementById('held');
   const putBack = held ? unpacked(held).then(text => {
     const all = JSON.parse(text);
@@ -112,7 +112,7 @@ export function startPage() {
         null;
   };
 
-  /** Text of an element; for folded content, browsers know the text, but not the layout. */
+  /** Text of an element. Without layout, as in folded content, browsers may give it only as textContent. */
   const wordsIn = (element: HTMLElement) =>
       (element.innerText || element.textContent || '').trim().replace(/\s+/g, ' ');
   const textOf = (row: HTMLTableRowElement, column: number) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
@@ -137,7 +137,7 @@ export function startPage() {
     table.tBodies[0].append(...rows.map(entry => entry.row));
   };
 
-  /** Columns with a common unit become numbers, with the unit in the head. */
+  /** A table as CSV. Columns with a common unit become numbers, with the unit in the head. */
   const csvOf = (table: HTMLTableElement) => {
     const rows = [...table.rows].filter(row => !row.hidden), head = table.tHead!.rows[0],
           body = rows.filter(row => row !== head);

@@ -34,7 +34,7 @@ Json findings_data(const Findings& findings);
 /// Data of provenance.html.
 Json provenance_data(const Provenance& lines);
 
-/// Data for scripts, as an element in data.html. `block` is the block to which its bytes are counted.
+/// Data for scripts, as an element in data.html. Its bytes count towards the size of `block`.
 Json data_element(const std::string& block, const std::string& id, const std::string& text,
                   const char* type = "application/json");
 
@@ -42,7 +42,7 @@ Json data_element(const std::string& block, const std::string& id, const std::st
 std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among);
 
 Json first_screen_data(const PageContent& content);
-/// Lists the engines that ran the scenes: " next to Bullet and mine".
+/// Lists the engines that ran the scenes: " next to Bullet and my-engine".
 std::string beside_mysim(const PageContent& content);
 
 /// Data of chapter.html for each chapter with contents.

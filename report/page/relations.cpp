@@ -21,7 +21,7 @@ RelationMark worse_mark(RelationMark a, RelationMark b) {
   return RelationMark::not_applicable;
 }
 
-/// Class of a dot, with the looks of parity certificates: full, a ring, a red square.
+/// CSS class of a dot, which looks as in parity certificates: a full dot, a ring, or a red square.
 std::string_view css_class(RelationMark mark) {
   constexpr std::string_view names[] = {"match", "mismatch", "law", "unattested"};
   return names[static_cast<int>(mark)];

@@ -17,7 +17,7 @@ Json cell(const std::string& text, const std::string& css_class = "") {
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
           {"note", ""},  // grey text that follows the cell's text
-          {"law", ""}};  // force law of the method that differs from mysim's
+          {"law", ""}};  // the method's force laws that differ from mysim's
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
   Json made = cell(text, css_class);

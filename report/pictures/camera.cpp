@@ -133,7 +133,7 @@ struct Wedge {
   double lower = -std::numeric_limits<double>::infinity();  // maximum of -a + slope c
 
   void hold(double a, double c, double radius) {
-    const double reach = radius * std::sqrt(1 + slope * slope);  // extent of a sphere that touches the slanted plane
+    const double reach = radius * std::sqrt(1 + slope * slope);  // maximum of a + slope c over a ball at the origin
     upper = std::max(upper, a + slope * c + reach);
     lower = std::max(lower, -a + slope * c + reach);
   }

@@ -36,7 +36,7 @@ struct PlacedBody {
     std::nth_element(lengths.begin(), middle, lengths.end());
     return *middle;
   }
-  /// Normal of the triangle, whose length is twice the triangle's area.
+  /// Normal vector of a triangle, twice as long as the triangle's area.
   Eigen::Vector3f area_vector(const std::array<int, 3>& t) const {
     return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
   }

@@ -35,7 +35,7 @@ std::string png_bytes(const Image& image, double pixels_per_inch) {
   const auto append = [](png_structp png, png_bytep data, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
   };
-  // the simple interface of libpng does not write the resolution; here, no error but lack of memory can occur
+  // the simple interface of libpng does not write the resolution; the only error that can occur here is lack of memory
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, append, nullptr);

@@ -169,7 +169,7 @@ void arrange(Picture& picture, double aspect) {
   const double width = fill * picture.width / picture.text;
   std::size_t columns = panels.size();
   while (columns > 1 && !titles_fit(panels, width / double(columns))) --columns;
-  // choose as many panels per row as possible, so that few places stay empty
+  // spread the panels evenly over this number of rows, so that few places stay empty
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   columns = (panels.size() + rows - 1) / rows;
   picture.rows.clear();

@@ -118,8 +118,8 @@ void add_outcome(Json& json, const Outcome& out) {
   if (out.verdict != Verdict::ok) json["failed"] = out.end, json["reason"] = why_failed(out);
 }
 
-/// Smallest multiple of the stride with at most `most` frames after the first, or one below its double that divides the
-/// samples.
+/// Smallest multiple of the stride that leaves at most `most` frames after the first. Prefers a multiple that divides
+/// the number of samples, if there is one below twice the smallest.
 int thinned(const Scene& scene, int stride, int most) {
   const int least = std::max(1, (scene.samples + stride * most - 1) / (stride * most));
   for (int times = least; times < 2 * least; ++times)

@@ -4,7 +4,7 @@ import {Frame} from './axes';
 import {Box, letters, lineHeight, widthOf} from './sheet';
 import {Pair} from './spec';
 
-/** Points at distances of at most `apart` px. */
+/** Points along a path, at most `apart` px from each other. */
 export function dense(path: readonly Pair[], apart = 6): Pair[] {
   const points: Pair[] = path.slice(0, 1);
   for (let i = 1; i < path.length; ++i) {
@@ -72,7 +72,7 @@ export class Board {
     return sum;
   }
 
-  /** Occupies the cheapest box and returns it. Returns null if no box is free. */
+  /** Occupies the cheapest box and returns it. Returns null if no box is cheap enough. */
   take(boxes: Iterable<Candidate>): Box|null {
     let best = 60, found: Box|null = null;
     for (const {box, penalty, more} of boxes) {
@@ -122,7 +122,7 @@ export function* boxesBeside(name: string, paths: readonly Pair[][], others: rea
   }
 }
 
-/** Boxes for lines of text around a point, at growing distances, each with a leader line from its nearer end. */
+/** Boxes for lines of text around a point, at growing distances; a leader line can join each box's near side to it. */
 export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = false) {
   const high = lineHeight * (lines.length - 1);
   for (let away = 18; away < 110; away += 8)

@@ -6,7 +6,7 @@ import {clipped} from './board';
 import {Element, element, group, key, KeyEntry, label, lineHeight, pathOf, rectangle, rounded, saying, Sheet} from './sheet';
 import {AxisSpec, MapSpec, Pair} from './spec';
 
-/** Minimum, maximum, and half the smallest distance of neighbours on a logarithmic scale, as a factor. */
+/** Minimum, maximum, and half the smallest distance between neighbours on a logarithmic scale, as a factor. */
 function spanOf(values: readonly number[]): [number, number, number] {
   const sorted = [...new Set(values.map(v => Math.round(1e6 * Math.log(v)) / 1e6))].sort((a, b) => a - b);
   let least = Infinity;
@@ -15,7 +15,7 @@ function spanOf(values: readonly number[]): [number, number, number] {
 }
 
 export function map(chart: MapSpec, width: number): Sheet {
-  // a sentence describes panels of a single colour
+  // panels of a single colour are described in a sentence instead of drawn
   const plain = chart.panels.filter(panel => new Set(panel.cells.map(c => c[2])).size === 1), {kinds} = chart;
   const panels =
       plain.length < chart.panels.length ? chart.panels.filter(panel => !plain.includes(panel)) : chart.panels;

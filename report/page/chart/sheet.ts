@@ -161,11 +161,11 @@ export const css = (colour: string) =>
 
 export interface KeyEntry {
   text: string;
-  sample: (x: number, y: number) => Element;  // (x, y): centre; x begins 9 px from the left
+  sample: (x: number, y: number) => Element;  // centred at (x, y), 9 px to the right of the entry's left edge
   method?: string;
 }
 
-/** The centre of the first line is at `top` + 8. Returns the key's height. */
+/** Draws a key, with the centre of its first line at `top` + 8. Returns the key's height. */
 export function key(
     elements: Element[], entries: readonly KeyEntry[], left: number, top: number, width: number): number {
   if (!entries.length) return 0;

@@ -1,4 +1,4 @@
-// mysim in the page: the WebAssembly module (module.cpp), of which each scene with its run has an instance.
+// mysim in the page: the WebAssembly module (module.cpp), with an instance for each scene and its run.
 
 import {inflated} from '../player/unpack';
 import {Vec3} from '../player/vectors';
@@ -295,9 +295,9 @@ export class Simulation {
   }
 
   /**
-   * Repeats the run on a copy and returns the change of velocities in one step, with the positions at that time: before
-   * any particle moves by more than a tenth of the shortest spring per step, because later growth is not linear. `mode`
-   * is null if the search exceeds the budget (ms).
+   * Repeats the run on a copy, and returns the change of velocities in one step, with the positions after it. The step
+   * is the last one before the change would move a particle by a tenth of the shortest spring per step, because later
+   * growth is not linear. `mode` is null if the search exceeds the budget (ms).
    */
   growingMode(budget = Infinity) {
     const until = performance.now() + budget;

@@ -36,7 +36,7 @@ export interface Reading {
   vector(path: string): number[];
 }
 
-/** State of the lab next to the question. */
+/** State of the lab while the question is shown. */
 export interface Before {
   limit: number;
   omega: number;
@@ -76,7 +76,7 @@ export interface GuideStep {
   guess?: {unit: string, within: number, read: (r: Reading) => number};  // asks for a number, not for a choice
   start: GuideState;                                                     // state while the question is shown
   then?: Wanted;                                                         // state after the guess; default: start
-  acts?: Wanted[];  // states that do the task for the reader; each lasts until its run ends or is `enough`
+  acts?: Wanted[];  // states that do the task for the reader; each lasts until its run ends or `enough` is true
   enough?: (r: Reading) => boolean;
   watch?: (r: Reading, seen: Seen) => void;  // records observations
   done: (r: Reading, seen: Seen) => boolean;

@@ -51,7 +51,7 @@ export class Hand {
       const hit = this.hit(event);
       if (hit) act.pin(hit.particle);
     });
-    // a touch of a particle, or by two fingers, must not scroll the page
+    // touching a particle, or the picture with two fingers, must not scroll the page
     layer.addEventListener('touchstart', event => {
       if (event.touches.length > 1 || this.hit(event.touches[0], 'touch')) event.preventDefault();
     }, {passive: false});

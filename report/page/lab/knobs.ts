@@ -17,7 +17,7 @@ interface KnobRow {
   to?: number;
   most?: number;  // in the number's unit
   zero?: boolean;
-  even?: boolean;  // linear; default start: 0
+  even?: boolean;  // linear scale, which starts at 0 if there is no `from`
 }
 
 const shownKnobs = 4;  // others are folded
@@ -292,7 +292,7 @@ export function nameOfMethod(method: string) {
   ].join(say('comma'));
 }
 
-/** A stepper in the selection: in words, and in languages other than English also by its command-line name. */
+/** Text of a stepper in the selection; in languages other than English, its command-line name follows. */
 const chosenAs = (name: string) => {
   const words = nameOfMethod(name);
   return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));

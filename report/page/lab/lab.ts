@@ -347,7 +347,7 @@ export class LiveLab extends LabPicture {
           this.methods = this.methods?.slice(0, 1) ?? null;
           this.reload();
         },
-    /** Changes numbers of the scene. Large scenes are opened when the slider stops. */
+    /** Changes numbers of the scene, and opens it once the slider has rested for a moment (longer if it is large). */
     numbers:
         (changes: Changes, done: boolean) => {
           this.toml = withNumbers(this.toml, changes);
@@ -624,7 +624,7 @@ export class LiveLab extends LabPicture {
 /** A lab state with a single method in short form, and an experiment to open. */
 type LabWish = LabState&{method?: string, step?: number, tolerance?: number, experiment?: string};
 
-/** Opens the scene's own lab on the page, another one, or a lab in a window over the page. */
+/** Opens the scene's own lab on the page, or else the lab of a lab page, or else a lab in a window over the page. */
 export async function openLab({method, step, tolerance, experiment, ...state}: LabWish) {
   if (!document.getElementById('lab-module')) return null;
   if (method) state.methods = [{method: method.replace(/^mysim\//, ''), step, tolerance}];

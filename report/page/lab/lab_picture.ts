@@ -166,7 +166,7 @@ export abstract class LabPicture extends LabRuns {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
     const over = look.view === 'over' || this.drawn.length < 2;
     if (look.truth && Boolean(truth) !== this.drawn.some(d => d.letter === 'T')) return this.showViews(), false;
-    // a run keeps its array of positions, but may have been replaced
+    // a run reuses its array of positions, but the run itself may have been replaced
     this.drawn.forEach(({run}, i) => {
       const panel = stage.panels[i], places = run ? run.places : truth;
       if (places) panel.places = places;

@@ -120,7 +120,7 @@ export abstract class LabRuns extends HTMLElement {
       const truth = new Truth(this.lab, toml, run, solidsOf(run.sim.scene) > 0);
       if (truth.known) this.truth = truth;
     } catch {
-      // the engine's text of the state cannot be read again
+      // the engine cannot read the text that it wrote for this state
     }
     if (!this.truth) this.truthGone = 'none';
     this.late = 0;
@@ -155,7 +155,7 @@ export abstract class LabRuns extends HTMLElement {
 
   /**
    * Compares runs with the truth, and records samples. If the truth exceeds the frame's budget, `pending` makes the
-   * clock wait for it, and from then on, for a limited time, slows the clock down.
+   * clock wait for it, and `pace` slows the clock down. If that lasts too long, drops the error bar, then the truth.
    */
   sample() {
     // at the start no truth is needed; while a slider moves, none is started

@@ -117,8 +117,7 @@ export class LiveRun {
       this.first = this.sim.energy;
     } catch (problem) {
       this.refusal = messageOf(problem);
-      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance, but its scene and limits are
-                                                    // needed
+      this.sim = this.sim.lab.open(this.sim.toml);  // replaces the ended instance, whose scene and limits are needed
     }
     const {limit} = this;
     this.trails = !this.sim.scene.triangles.length;
@@ -161,7 +160,7 @@ export class LiveRun {
           if (this.bursting) break;
         }
       } else if (this.trails) {
-        // points on the trail of a small scene have times of their own
+        // the trail needs positions at its own times, between those of the frames
         const piece = sim.scene.duration / (trailPoints - 1);
         for (let to = sim.t + piece; goes(); to = Math.max(to, sim.t) + piece) {
           sim.advance(Math.min(aim, to), budget);
@@ -280,11 +279,11 @@ class Follower {
 }
 
 /**
- * The truth: a fourth-order rule at no more than a quarter of its critical step (without a critical step: a quarter of
- * the run's step, or a twentieth for first-order scenes), and again with twice that step. If no fourth-order rule
- * supports the scene: the run's own stepper at a hundredth of its step. The error bar is 3 / (2^4 - 1) of the
- * difference of both; with contact, or with the run's own stepper, it is the whole difference. The steps divide those
- * of the first method, so that their times coincide.
+ * The truth is computed by a fourth-order rule with at most a quarter of its critical step (if there is none: a quarter
+ * of the run's step, or a twentieth for first-order scenes), and again with twice that step. If no fourth-order rule
+ * supports the scene, the run's own stepper is used with a hundredth of its step. The error bar is 3 / (2^4 - 1) of the
+ * difference between the two runs; with contact, or with the run's own stepper, it is the whole difference. The steps
+ * divide that of the first method, so that their times coincide.
  */
 export class Truth {
   spec: MethodSpec = {method: ''};

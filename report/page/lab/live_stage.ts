@@ -21,7 +21,7 @@ export const trailPoints = 600;
 export function stageScene(name: string, {scene}: Simulation, floor: number|null, from: Numbers): StageScene&
     {shared: SharedGeometry} {
   const names = ['single', 'structural', 'shear', 'bend'], ranks = [1, 0, 2, 3];
-  // order: distance constraints, then springs by family, of which threads come first
+  // order: distance constraints, then springs by family, beginning with those that are drawn as threads
   const order = [...scene.families.keys()];
   order.sort((a, b) => ranks[scene.families[a]] - ranks[scene.families[b]] || a - b);
   const hard = scene.constraintLengths.length, families = hard ? [{name: 'hard distance', count: hard}] : [];

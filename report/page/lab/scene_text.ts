@@ -64,13 +64,13 @@ export function numberAt(toml: string, path: string) {
   return Array.isArray(value) ? norm(value) : value;
 }
 
-/** What zero does at a path: it comments out the line or the whole section, or is written. */
+/** Effect of setting a number to zero: comments out its line or its whole section, or is written as a number. */
 const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :
                                                                                         'number');
 
-/** Changes a number in all tables with that name ([[sphere]], [[spring]]). */
+/** Changes a number in every table that has its path; there may be several [[sphere]] or [[spring]]. */
 function withNumber(toml: string, path: string, value: Value) {
   const lines = toml.split('\n'), zero = zeroOf(path), gone = value === 0 && zero !== 'number';
   const leave = (line: string) => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
@@ -115,7 +115,7 @@ export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSp
 export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
-/** Shortest step (s), of three or more digits, with `count` steps between two samples. */
+/** The step (s) with `count` steps between two samples, rounded up to as few digits as possible, at least three. */
 export function stepOf(interval: number, count: number) {
   const exact = interval / count;
   for (let digits = 3; digits < 16; ++digits) {
@@ -159,7 +159,7 @@ export function withStart(toml: string, pins: Int32Array, {positions: x, velocit
   return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
-/** The section ends before the next line with a section's name. */
+/** Removes a section, which ends before the next line with a section's name. */
 export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')

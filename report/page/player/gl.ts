@@ -40,7 +40,7 @@ export class Gl {
     this.gl = gl;
   }
 
-  // After the context is lost, WebGL creates nulls. They are passed on, and nothing is drawn.
+  // After the context is lost, WebGL returns null for new objects. These nulls are passed on, and nothing is drawn.
 
   program(vertex: string, fragment: string, define = ''): Program {
     const gl = this.gl, program = gl.createProgram()!;

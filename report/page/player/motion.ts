@@ -181,8 +181,8 @@ export class Motion {
   }
 
   /**
-   * Coordinate differences (m) between two motions, at the frames of the run with fewer frames, which the other run
-   * has, too. Between frames, linear interpolation errs by more than the difference of two accurate runs.
+   * Coordinate differences (m) between two motions, interpolated between the frames that both have. Differences of
+   * interpolated positions would err by more than two accurate runs differ.
    */
   apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
     const {times} = this.times.length < other.times.length ? this : other;

@@ -121,7 +121,7 @@ vec3 colour_of(vec3 own) {
 }
 `;
 
-// the method's tint, from dark to light with the incident light
+// the method's tint, the lighter the more the cloth faces the light
 export const clothFragment = coloured + `
 uniform vec3 ramp[3];
 void main() {

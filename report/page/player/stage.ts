@@ -27,7 +27,7 @@ export interface PlaneFace {
   point: Numbers;
   normal: Numbers;
 }
-/** Walls and ceilings are omitted, because they would hide their interior. */
+/** Only floors and slopes are drawn, because walls and ceilings would hide what is behind them. */
 export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
 const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
@@ -136,7 +136,7 @@ export class BaseStage<P extends Panel> {
       if (table) this.tools.gl.deleteTexture(table.texture);
   }
 
-  /** Writes positions and values (0 to 1 of `top`; none without a list) of a panel's particles. */
+  /** Writes the positions of a panel's particles, and their values relative to `top` (-1 if there are no values). */
   protected fill({points, normals}: P, places: Numbers, values: Numbers|null, top: number) {
     const into = points.data;
     for (let i = 0; i < this.scene.particles; ++i) {

@@ -6,7 +6,7 @@
 
 Scenes are given by name, as the path of a TOML file, or as a Scene built here. Methods are given by name or as an
 `@engine` function. SI units throughout. Errors of the program are raised as Error, with its one-line message.
-`find_program` locates the program; this package calls it and reads its files, and has nothing compiled.
+`find_program` locates the program; this package calls it and reads its files, and contains no compiled code.
 """
 try:
     import numpy  # noqa: F401

@@ -104,7 +104,7 @@ class Engine:
 
     x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. After each step, pinned particles are
     reset to the positions that the scene prescribes. `terms`: the terms of the protocol that the function models, by
-    default those of `scene.force`; "springs" are Hooke's, "bullet-link" is their other law. Scenes with
+    default those of `scene.force`. "springs" means Hooke's law, and "bullet-link" the other law of springs. Scenes with
     other terms are refused.
 
     >>> @engine(terms=["gravity"])
@@ -285,7 +285,7 @@ def run_scene(dump, scene_file, out):
 
 
 def run(name, step, scene):
-    """Frames of positions, number of steps, frames of velocities, and the CPU time of stepping (s)."""
+    """Returns frames of positions, the number of steps, frames of velocities, and the CPU time of stepping (s)."""
     task = scene.json
     h, per_sample, samples = (task["run"][key] for key in ("step", "steps_per_sample", "samples"))
     x, v = (np.array(task["particles"][key], dtype=float) for key in ("x", "v"))

@@ -42,7 +42,7 @@ class Table(np.ndarray):
         return pandas.DataFrame({f"{name} [{self.units[name]}]": self[name] for name in self.dtype.names})
 
     def _repr_html_(self):
-        """At most 40 rows."""
+        """HTML table with at most 40 rows."""
         if self.dtype.names is None or self.ndim != 1:
             return None
 
@@ -63,7 +63,7 @@ def escape(text):
 
 
 def column(cells):
-    """As float64 if all cells are numbers or empty, otherwise as text."""
+    """The cells as an array: float64 if all are numbers or empty, otherwise text."""
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
     except ValueError:
