@@ -108,7 +108,7 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
   EXPECT_EQ(number(t, 1, "times mysim"), 2);
   EXPECT_EQ(word(t, 2, "engine"), "bullet");
   EXPECT_EQ(number(t, 2, "times mysim"), 30);
-  // the interval 0.9 to 1.2 times 60, divided by the interval 0.9 to 1.2 times 2
+  // times are known to within 0.9 to 1.2 of their value: 60 x 0.9 / (2 x 1.2), and 60 x 1.2 / (2 x 0.9)
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim low"), 22.5);
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim high"), 40);
 }
@@ -511,7 +511,7 @@ TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
   EXPECT_EQ(json["panels"][0]["measured"].size(), 1u);
 }
 
-/// Limits of a rule on two scenes, and limits of rules that need drag, that are stable at every step, or that have no
+/// Limits of one rule on two scenes, and of three others: one needs drag, one is stable at every step, and one has no
 /// theory.
 std::vector<LimitRow> limit_rows() {
   const auto row = [](const char* scene, const char* method, PredictionKind theory, double predicted, double omega,

@@ -98,8 +98,8 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   const Table& ledger = *rows.table("all-at-once-ledger");
   for (size_t i = 0; i < ledger.rows.size(); ++i)
     EXPECT_EQ(empty(ledger, i, "residual"), text_at(ledger, i, "method") == "bullet/deformable-explicit");
-  // Averaged over the pins' fifty periods, both motions are equal. If each energy varies randomly by half, two means
-  // differ by 0.5 sqrt(2 / 50) = 0.1.
+  // Averaged over the pins' fifty periods, both motions are equal. If the energy per period varies randomly by half its
+  // value, two means differ by 0.5 sqrt(2 / 50) = 0.1.
   for (const char* column : {"drag took", "dashpots took", "wind gave", "pins gave"}) {
     EXPECT_GT(number(energy, told, column), 0.01) << column;
     EXPECT_NEAR(number(energy, told, column) / number(energy, inferred, column), 1, 0.1) << column;

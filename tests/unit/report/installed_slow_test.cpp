@@ -72,7 +72,7 @@ TEST_F(Installed, WorksWithoutTheSourceTree) {
     EXPECT_EQ(end.status, 0) << words << "\n" << end.out << end.err;
   }
   EXPECT_TRUE(fs::exists(work() / "handout"));
-  // the installation is not writable
+  // output goes to the working folder, because the installation is not writable
   const ProgramResult run = unseen(program().string() + " run chain --meshes obj");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(fs::exists(work() / "out/run/meshes/frame-0001.obj"));

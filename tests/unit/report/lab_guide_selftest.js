@@ -1,5 +1,5 @@
-// Completes every step of the guided experiments, and checks all texts on the way. Frames are calls, a tenth of a
-// second apart, without drawing.
+// Completes every step of the guided experiments, and checks all texts on the way. Frames are produced by calls, a
+// tenth of a second apart, without drawing.
 
 const labGuideTest = (() => {
   const guide = () => document.querySelector('lab-guide');

@@ -205,7 +205,7 @@ const labUse = (() => {
     flag: rule => (gentle.test(rule) ? softened(4) : {}),
     spring: () => ({'time.duration': 60})
   };
-  /** At such steps RK4 and Suzuki's rule damp all but the fastest vibrations, which wind and wrinkles damp. */
+  /** Just above the limit, RK4 and Suzuki's rule amplify only the fastest vibrations, which wind and wrinkles damp. */
   const partsOf = rule => (gentle.test(rule) ? {above: 2.5, below: 0.9} : /^(rk4|suzuki4)$/.test(rule) ? {above: 1.2, below: 0.96} : {above: 1.06, below: 0.96});
 
   async function bursts() {
@@ -228,7 +228,7 @@ const labUse = (() => {
       const step = limit > 0 ? above * limit : 100 * lab.runs[0].sim.scene.step, run = await runAt(step), row = {method, above: run.sim.h / limit, at: run.time};
       well(run.failed && run.time < duration, 'holds at', step, 's,', above, 'of its critical step', limit);
       well(lab.dataset.verdict === run.verdict && run.verdict !== 'ok', 'is judged', lab.dataset.verdict);
-      // a single spring that swings by more than a tenth of its length has no small mode
+      // there may be no mode for the single spring, which swings by more than a tenth of its length
       const {growth} = run.sim, most = growth && Math.max(...growth.map(Math.abs)), shown = growth || scene !== 'spring';
       if (shown) well(growth && growth.length === run.places.length && most > 0.5 && most <= 1 + 1e-12 && lab.growth?.letter === 'A', 'has no mode that grows');
       well(isFinite3(run.places), 'leaves no picture');

@@ -101,7 +101,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
       signs[first(line, "lc rgb \"(#[0-9A-F]{6})\"")] = first(line, "point pt (\\d+)");
     if (line.starts_with("plot ")) plotting = true;
     if (!plotting || line.find(" with ") == std::string::npos) continue;
-    if (line.find("&& $3 == ") != std::string::npos) continue;  // a label next to the row names it
+    if (line.find("&& $3 == ") != std::string::npos) continue;  // elements of a row that has a label with their name
     std::string name;
     const std::regex text("eq '([^']*)'");
     for (std::sregex_iterator i(line.begin(), line.end(), text), end; i != end; ++i) name = (*i)[1];
