@@ -32,7 +32,7 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
     for (const std::string& word : of->remaining()) {
       const std::string option = word.substr(0, word.find('='));
       if (!option.starts_with("-") || option == "-" || option == "--")
-        return fmt::format("{}one word too many: '{}' ({} {}--help shows what is expected)", place, word.substr(0, 60),
+        return fmt::format("{}unexpected argument '{}' ({} {}--help shows what is expected)", place, word.substr(0, 60),
                            program, help);
       const std::vector<std::string> known = names_of(command);
       if (std::find(known.begin(), known.end(), option) != known.end())

@@ -32,12 +32,12 @@ std::string path_message(const fs::filesystem_error& error) {
   const std::errc code = static_cast<std::errc>(error.code().value());
   // unfinished results are in hidden folders: report the visible folder above, which shows which disk is full
   if (code == std::errc::no_space_on_device) path = path.substr(0, path.find("/."));
-  const char* expected = code == std::errc::no_space_on_device          ? "; expected more room on the disk"
-                         : code == std::errc::permission_denied         ? "; expected one that you may read and write"
-                         : code == std::errc::read_only_file_system     ? "; expected a place that can be written to"
-                         : code == std::errc::filename_too_long         ? "; expected a shorter name"
-                         : code == std::errc::not_a_directory           ? "; expected a folder"
-                         : code == std::errc::is_a_directory            ? "; expected a file"
+  const char* expected = code == std::errc::no_space_on_device      ? "; expected more free space on the disk"
+                         : code == std::errc::permission_denied     ? "; expected a path that you may read and write"
+                         : code == std::errc::read_only_file_system ? "; expected a place that can be written to"
+                         : code == std::errc::filename_too_long     ? "; expected a shorter name"
+                         : code == std::errc::not_a_directory       ? "; expected a folder"
+                         : code == std::errc::is_a_directory        ? "; expected a file"
                          : code == std::errc::no_such_file_or_directory ? "; expected an existing path"
                          : code == std::errc::too_many_symbolic_link_levels
                              ? "; expected a path without a loop of links"
@@ -56,19 +56,19 @@ std::string in_words(const std::exception_ptr& thrown) {
     return fmt::format("not enough memory: {} are free; expected fewer particles, samples or methods at a time",
                        format_bytes(free_memory()));
   } catch (const std::length_error&) {
-    return "something would be larger than any memory; expected fewer particles or samples";
+    return "more memory required than any machine has; expected fewer particles or samples";
   } catch (const std::ios_base::failure&) {
-    return "a file cannot be read or written; expected files, no folders, that can be read, and room on the disk";
+    return "a file cannot be read or written; expected a readable file (not a folder) and free space on the disk";
   } catch (const std::system_error& error) {
     return error.code().message();
   } catch (const std::exception& error) {
     // without the library's prefix "[json.exception.type_error.302] "
     std::string what = error.what();
     if (what.starts_with("[json.exception."))
-      what = "a JSON file does not hold what was expected:" + what.substr(std::min(what.find(']') + 1, what.size()));
+      what = "a JSON file has unexpected content:" + what.substr(std::min(what.find(']') + 1, what.size()));
     return what;
   } catch (...) {
-    return "something unknown went wrong";
+    return "unknown error";
   }
 }
 

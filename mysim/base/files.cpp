@@ -161,7 +161,7 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place
     std::string made = name.string();
     if (!mkdtemp(made.data()))
       throw InputError(
-          fmt::format("{}: no folder can be made there; expected a place for temporary files", name.string()));
+          fmt::format("{}: cannot create a folder there; expected a place for temporary files", name.string()));
     path = made;
     lock_ = open(made.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     stale = (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) || !fs::exists(path);

@@ -27,8 +27,8 @@ const std::map<std::string, fs::path>& folders() {
         throw std::runtime_error(list.string() + ": expected two lines, 'data FOLDER' and 'programs FOLDER'");
       if (at == at.parent_path())
         throw std::runtime_error(
-            fmt::format("{}: there is no file crosscheck.folders beside it or above: a program "
-                        "works where it was built or installed, not as a copy",
+            fmt::format("{}: found no file crosscheck.folders next to it or in a folder above; run the program where "
+                        "it was built or installed, not a copy",
                         program.string()));
     }
   }();

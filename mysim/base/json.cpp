@@ -107,7 +107,7 @@ class Reader {
   }
   bool open(Json value) {
     constexpr size_t deepest = 500;
-    if (open_.size() == deepest) wrong = fmt::format("nested more than {} deep", deepest);
+    if (open_.size() == deepest) wrong = fmt::format("nested more than {} levels deep", deepest);
     open_.push_back(&add(std::move(value)));
     return wrong.empty();
   }
@@ -122,7 +122,7 @@ std::string parse_error(std::string_view text, const Reader& reader) {
   std::string why = fmt::format("line {}, column {}: {}", 1 + std::count(before.begin(), before.end(), '\n'),
                                 before.size() - (before.rfind('\n') + 1) + 1, reader.wrong);  // npos + 1 is 0
   if (const std::string path = reader.not_finite ? reader.path() : ""; !path.empty())
-    why += fmt::format("; {}: expected a finite number: JSON has no other, leave out a key that has none", path);
+    why += fmt::format("; {}: expected a finite number (JSON has no others); omit keys without one", path);
   return why;
 }
 

@@ -100,7 +100,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
     return manifest;
   } catch (const std::exception&) {
     throw InputError(
-        fmt::format("{}: expected what this version of crosscheck writes under that name (format {}); "
+        fmt::format("{}: expected a list of results that this version of crosscheck wrote (format {}); "
                     "give another folder",
                     file.string(), manifest_format));
   }

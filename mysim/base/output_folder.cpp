@@ -55,8 +55,8 @@ void OutputLock::find_target() {
   if (requested.empty() || !target.has_filename() || (fs::exists(target) && !fs::is_directory(target))) refuse();
   for (fs::path at = target; at.has_relative_path(); at = at.parent_path())
     if (fs::is_symlink(at))
-      refuse(fmt::format("{} is a link to {}, which does not exist; make that folder, or give another one", at.string(),
-                         fs::read_symlink(at).string()));
+      refuse(fmt::format("{} is a link to {}, which does not exist; create that folder, or give another one",
+                         at.string(), fs::read_symlink(at).string()));
   work = target.parent_path() / fmt::format(".{}.crosscheck", target.filename().string());
 }
 
@@ -282,9 +282,9 @@ std::optional<Manifest> require_ours(const OutputLock& place, const std::string&
   });
   if (!paths.empty())
     place.refuse(
-        fmt::format("holds files that are not of crosscheck {} ({}{}), and nothing in it was changed; give an "
+        fmt::format("holds files that crosscheck {} did not write ({}{}), and nothing in it was changed; give an "
                     "empty or a new folder, or move them away",
-                    command, paths[0], paths.size() > 1 ? fmt::format(" among {}", paths.size()) : ""));
+                    command, paths[0], paths.size() > 1 ? fmt::format(" and {} more", paths.size() - 1) : ""));
   return manifest;
 }
 

@@ -259,8 +259,8 @@ void ImplicitStep::minimise() {
       tried = potential_.value(trial_);
       if (tried <= value + 1e-4 * length * slope + potential_.rounding()) break;
       if (length < 1e-12)
-        throw SolverFailure(
-            fmt::format("the line search found no lower potential (force left {:.2g} N, asked {:.2g} N)", left, goal));
+        throw SolverFailure(fmt::format(
+            "the line search found no lower potential (residual force {:.2g} N, tolerance {:.2g} N)", left, goal));
     }
     u_ = trial_;
     value = tried;
@@ -304,7 +304,7 @@ const State& ImplicitStep::solve_linear(const State& s, double h) {
   potential_.gradient(u_, g_);
   if (!newton_direction(Curvature::clamped, force_tolerance).converged &&
       largest_column(g_) > potential_.force_rounding())
-    throw SolverFailure("the linear system of the step was not solved");
+    throw SolverFailure("the solver of the step's linear system did not converge");
   u_ = p_;
   return potential_.end(u_);
 }

@@ -141,8 +141,8 @@ std::vector<std::string> sentences_of(const Moduli& m) {
   } else if (m.dimension == 2) {
     const auto [least, largest] = m.young_range();
     sentences.push_back(
-        fmt::format("Young's modulus {:.4g} {} along axis 1, Poisson's ratio {:.3g}; {:.4g} to {:.4g} {} over the "
-                    "angle: not isotropic",
+        fmt::format("Young's modulus {:.4g} {} along axis 1, Poisson's ratio {:.3g}; {:.4g} to {:.4g} {} over all "
+                    "directions: not isotropic",
                     m.young(), unit, m.poisson(), least, largest, unit));
   } else {
     sentences.emplace_back("its axes differ or stretch and shear are coupled: not isotropic");
@@ -194,7 +194,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
   Eigen::Matrix3Xd arms(3, star.size());
   for (size_t i = 0; i < star.size(); ++i) arms.col(static_cast<long>(i)) = star[i].to;
   if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(arms).setThreshold(1e-6).rank() != std::ssize(basis))
-    return {{}, "its springs do not span it"};
+    return {{}, "its springs do not span its dimensions"};
   const Vec3 e1 = basis[0].normalized();
   const Vec3 e2 = basis.size() > 1 ? (basis[1] - basis[1].dot(e1) * e1).normalized() : Vec3::Zero();
   Moduli m;

@@ -117,8 +117,8 @@ Verdict CrossingObserver::observe(const State& state, bool sample) {
 void CrossingObserver::note(Outcome& outcome) const {
   if (most_ == 0) return;
   outcome.remark += fmt::format(
-      "{}the surface crosses itself, seen first at {:.4g} s and through {} edges at most: contact "
-      "of a cloth with itself is not modelled",
+      "{}the surface crosses itself, first seen at {:.4g} s, with at most {} edges at a time: "
+      "self-contact of cloth is not modelled",
       outcome.remark.empty() ? "" : "; ", first_, most_);
 }
 

@@ -262,9 +262,9 @@ const State& AdaptiveWorld::state(double t) {
 
 void require_supported(const Stepper& stepper, const Model& model) {
   if (model.first_order() && !stepper.first_order)
-    throw Unsupported("the scene is a first-order system x' = f(x, t), and this rule needs positions and velocities");
+    throw Unsupported("the scene is a first-order system x' = f(x, t), but this rule needs positions and velocities");
   if (model.find<Constraints>() && !stepper.hard_constraints)
-    throw Unsupported("the scene has hard distances, and this rule knows forces only");
+    throw Unsupported("the scene has hard distances, but this rule supports only forces");
 }
 
 /// Returns a remark if particles lie on a surface with restitution at the end of a run with steps of h (s), otherwise
@@ -293,8 +293,8 @@ std::string hops_at_rest(const Scene& scene, State s, double h) {
   }
   if (hopping == 0) return "";
   return fmt::format(
-      "{} {} on a surface with restitution and {} never quite at rest: contact on whole steps lets them hop by about "
-      "{:.2g} m, with the square of the step",
+      "{} {} on a surface with restitution and {} never quite at rest: contact on whole steps makes them hop by about "
+      "{:.2g} m, in proportion to the square of the step",
       hopping, hopping == 1 ? "particle lies" : "particles lie", hopping == 1 ? "is" : "are", highest);
 }
 
@@ -317,8 +317,8 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
     out.remark = hops_at_rest(scene, world->state(out.end), out.step);
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
     out.remark = fmt::format(
-        "computed in double precision: single is for regular cloths of {} columns or more, without "
-        "bending, dashpots and air, and with contact for symplectic-euler and leapfrog without +sticky",
+        "computed in double precision: single precision requires a regular cloth of {} columns or more "
+        "without bending, dashpots and aerodynamics; with contact, also symplectic-euler or leapfrog without +sticky",
         simd::fewest_columns);
   return out;
 }

@@ -30,8 +30,8 @@ void require_memory_of_grid(const TomlTable& s, const Grid& g) {
       springs * 2 * sizeof(Spring) + stencils * 2 * sizeof(Bending::Stencil) + g.size() * 16. * sizeof(double);
   const double free = free_memory();
   if (bytes > free)
-    s.fail("size", fmt::format("a grid that fits into the {} of memory that are free, got {} particles with {:.0f} "
-                               "springs, which take {} at least",
+    s.fail("size", fmt::format("a grid that fits into the {} of free memory, got {} particles with {:.0f} "
+                               "springs, which need at least {}",
                                format_bytes(free), g.size(), springs, format_bytes(bytes)));
 }
 
@@ -44,8 +44,8 @@ Grid read_grid(const TomlTable& s) {
   bool good = size.size() == 2 || size.size() == 3;
   for (int n : size) good = good && n >= 2 && (particles *= n) <= 10000000;
   if (!good)
-    s.fail("size", fmt::format("two whole numbers from 2 (cloth) or three (a block), particles along u, v and w, ten "
-                               "million in all at most, got [{}]",
+    s.fail("size", fmt::format("two whole numbers from 2 (cloth) or three (a block), particles along u, v and w, at "
+                               "most ten million in all, got [{}]",
                                fmt::join(size, ", ")));
   g.nu = size[0];
   g.nv = size[1];
@@ -54,15 +54,14 @@ Grid read_grid(const TomlTable& s) {
   g.u = s.vec3("u");
   g.v = s.vec3("v");
   for (const char* side : {"u", "v"})
-    if (s.vec3(side).norm() == 0) s.fail(side, "a side that has a length");
+    if (s.vec3(side).norm() == 0) s.fail(side, "a side of non-zero length");
   if (g.u.cross(g.v).norm() <= 1e-12 * g.u.norm() * g.v.norm()) s.fail("v", "a side that is not parallel to u");
   g.w = Vec3::Zero();
-  if (g.nw == 1 && s.has("w"))
-    s.fail("w", "none with a size of two numbers, which is a cloth; a block's size has three");
+  if (g.nw == 1 && s.has("w")) s.fail("w", "no w with a size of two numbers (a cloth; a block has three)");
   if (g.nw > 1) {
     g.w = s.vec3("w");
     if (!(g.u.cross(g.v).dot(g.w) > 1e-12 * g.u.norm() * g.v.norm() * g.w.norm()))
-      s.fail("w", "a side that leaves the plane of u and v, on the side of u x v");
+      s.fail("w", "a side out of the plane of u and v, on the side of u x v");
   }
   g.mass = s.positive("mass");
   const bool inextensible = s.has("inextensible");
@@ -76,7 +75,7 @@ Grid read_grid(const TomlTable& s) {
   if (!inextensible || s.has("stiffness")) {
     const TomlTable k = s.section("stiffness");
     if (inextensible && k.has("structural"))
-      k.fail("structural", "none with inextensible = \"structural\", which keeps these springs' lengths");
+      k.fail("structural", "no stiffness with inextensible = \"structural\", which replaces springs by hard distances");
     if (!inextensible) g.stiffness.structural = k.positive("structural");
     if (k.has("shear")) g.stiffness.shear = k.positive("shear");
     if (k.has("bend")) g.stiffness.bend = k.positive("bend");
@@ -84,10 +83,10 @@ Grid read_grid(const TomlTable& s) {
   if (s.has("dashpot")) g.dashpot = s.positive("dashpot");
   if (s.has("bending")) {
     g.bending = s.positive("bending");
-    if (g.nw > 1) s.fail("bending", "none with a size of three numbers, which is a block: a sheet bends");
+    if (g.nw > 1) s.fail("bending", "no bending with a size of three numbers (only a cloth bends)");
     // 1e-9 allows for the rounding of decimal numbers
     if (std::abs(g.u.dot(g.v)) > 1e-9 * g.u.norm() * g.v.norm())
-      s.fail("bending", "none where u and v are not at right angles: it is derived for those that are");
+      s.fail("bending", "no bending unless u and v are at right angles");
   }
   require_memory_of_grid(s, g);
   return g;

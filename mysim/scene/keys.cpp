@@ -13,7 +13,7 @@ constexpr Key time_keys[] = {
     {"samples", "a whole number from 1 to 1000000, the frames after the first", required},
     {"step", "a number above zero (s), not longer than the duration", required},
     {"window", "a number above zero (s), not longer than the duration, up to which runs are compared", required},
-    {"tolerance", "a number above zero (m), what is too small to matter", required},
+    {"tolerance", "a number above zero (m), the largest difference that does not matter", required},
     {"method", "the name of a method in quotes, as in \"leapfrog\"", required},
 };
 constexpr Key stiffness_keys[] = {
@@ -58,7 +58,7 @@ constexpr Key motion_keys[] = {
     {"ramp", "a number above zero (s)", required},
 };
 constexpr Key pin_keys[] = {
-    {"particles", "a list of particles that are held, as in [0, 19]", required},
+    {"particles", "a list of fixed particles, as in [0, 19]", required},
     {"motion", "how they are moved", optional, table, motion_keys},
 };
 constexpr Key start_keys[] = {
@@ -125,7 +125,7 @@ constexpr Key wish_keys[] = {
     {"anisotropy", "a number above zero; 1 is isotropic"},
 };
 constexpr Key file_keys[] = {
-    {"question", "a text in quotes: what the scene asks", required},
+    {"question", "a text in quotes: the question that the scene answers", required},
     {"parameters", "a text in quotes: how its values were chosen", required},
     {"time", "", required, table, time_keys},
     {"particle", "", required, tables, particle_keys, "grid"},

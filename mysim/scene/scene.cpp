@@ -175,7 +175,7 @@ void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool
   const int on_grid = grid ? grid->size() : 0;
   const int n = on_grid + static_cast<int>(single.size());
   if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
-  if (grid && first_order) file.fail("grid", fmt::format("single particles with [rotation], {}", without_mass));
+  if (grid && first_order) file.fail("grid", fmt::format("only single particles with [rotation], {}", without_mass));
   scene.start.x.resize(3, n);
   scene.start.v = Points::Zero(3, first_order ? 0 : n);
   scene.model.particles.mass = Eigen::VectorXd::Ones(n);
@@ -244,7 +244,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
     const double rest = s.has("rest") ? s.not_negative("rest") : distance;
     if (distance == 0 && rest > 0)
       s.fail("ends",
-             fmt::format("ends that do not coincide at the start, as the rest length is above zero, got particles "
+             fmt::format("ends that do not coincide at the start, because the rest length is above zero, got particles "
                          "{} and {} at the same place",
                          a, b));
     springs.list.push_back({a, b, s.positive("stiffness"), rest, read_family(s)});
@@ -255,8 +255,8 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
     const double length = s.has("length") ? s.positive("length") : distance;
     // 1e-9 allows for the rounding of decimal numbers
     if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
-      s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
-                                 distance));
+      s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start (their fixed distance), got {:.6g} m",
+                                 length, distance));
     constraints.list.push_back({a, b, length});
   }
   if (file.has("springs")) {
@@ -269,7 +269,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
                                           std::string(name_of(SpringLaw::bullet_link))};
       s.fail("law", fmt::format("\"{}\" or \"{}\", got \"{}\"{}", laws[0], laws[1], law, did_you_mean(law, laws)));
     }
-    if (springs.list.empty()) s.fail("law", "springs that follow it");
+    if (springs.list.empty()) s.fail("law", "at least one spring that follows it, got none");
   }
   if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
   if (grid && grid->bending > 0) scene.model.terms.emplace_back(grid_bending(*grid));
@@ -298,8 +298,8 @@ void read_spheres(const TomlTable& file, Scene& scene) {
       // 1e-9 allows a particle to be inside by the rounding of a decimal number
       if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
         s.fail("radius",
-               fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "
-                           "centre, inside {:.6g} m",
+               fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m from the "
+                           "centre, below {:.6g} m",
                            i, distance, sphere.contact_radius()));
     }
     spheres.list.push_back(sphere);
@@ -332,7 +332,7 @@ void read_planes(const TomlTable& file, Scene& scene) {
     for (const Plane& other : planes.list) {
       const double margins = plane.margin + other.margin;
       if (const auto width = width_between(plane, other); width && !(*width > 0))
-        s.fail("point", fmt::format("more than the two margins, {:.6g} m, to the opposite plane, got {:.6g} m", margins,
+        s.fail("point", fmt::format("more than both margins, {:.6g} m, to the opposite plane, got {:.6g} m", margins,
                                     *width + margins));
     }
     planes.list.push_back(plane);

@@ -247,7 +247,7 @@ Vec3 TomlTable::vec3(std::string_view key) const {
   const toml::node& n = node_->need(key, expected);
   const toml::array* values = n.as_array();
   if (!values) node_->refuse(n, key, expected);
-  if (values->size() != 3) node_->refuse(n, key, expected, fmt::format(", which are {}", values->size()));
+  if (values->size() != 3) node_->refuse(n, key, expected, fmt::format(" ({} numbers)", values->size()));
   Vec3 v;
   for (int i = 0; i < 3; ++i) v[i] = node_->finite((*values)[i], fmt::format("{}[{}]", key, i), "a finite number");
   return v;
@@ -407,7 +407,7 @@ class KeyCheck {
     if (key.size() < 6) return "";  // short words resemble too many keys
     const std::string meant = closest_match(key, names);
     for (const auto& [name, table] : all)
-      if (name == meant) return fmt::format("; did you mean '{}' of {}?", name, table);
+      if (name == meant) return fmt::format("; did you mean '{}' in {}?", name, table);
     return "";
   }
 
@@ -471,7 +471,7 @@ class KeyCheck {
       std::string what = fmt::format("{} expected one of: {}", and_then(unknown[0].second), fmt::join(known, ", "));
       for (std::size_t i = 1; i < unknown.size(); ++i)
         what += fmt::format("; line {}: {}", unknown[i].first, unknown[i].second);
-      if (!lacking.empty()) what += fmt::format("; missing as well: {}", lacking);
+      if (!lacking.empty()) what += fmt::format("; also missing: {}", lacking);
       fail(unknown[0].first, what);
     }
     if (missing.empty()) return;
@@ -497,10 +497,10 @@ class KeyCheck {
       std::string got = as_written(*n, text_), hint;
       if (n->is_table() && !n->as_table()->is_inline()) {
         got = fmt::format("[{}]", name);
-        hint = "; each of them begins with a line in double brackets";
+        hint = "; each table begins with a line in double brackets";
       } else if (tables && !n->as_array()->empty()) {
         got = fmt::format("[[{}]]", name);
-        hint = "; it comes once, in single brackets";
+        hint = "; only one is allowed, in single brackets";
         std::vector<std::string> several;
         for (const Key& other : keys)
           if (other.kind != Key::Kind::value && other.kind != Key::Kind::table) several.emplace_back(other.name);

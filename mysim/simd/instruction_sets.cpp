@@ -32,7 +32,7 @@ InstructionSet active_instruction_set() {
   for (const InstructionSet isa : all)
     if (name_of(isa) == named) return isa;
   throw InputError(fmt::format(
-      "CROSSCHECK_INSTRUCTIONS={}: expected baseline, avx2 or avx512, and one that this machine has", named));
+      "CROSSCHECK_INSTRUCTIONS={}: expected baseline, avx2 or avx512, as far as this machine supports them", named));
 }
 
 }  // namespace crosscheck::simd

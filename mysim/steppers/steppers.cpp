@@ -142,7 +142,7 @@ std::span<const Stepper> steppers() {
        .first_order = true,
        .symplectic = false,
        .limit = limits::explicit_euler,
-       .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped): none without drag",
+       .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped); never stable without drag",
        .what = "forward Euler, a cautionary example"},
       {.name = "trapezoidal",
        .step = trapezoidal,
@@ -151,7 +151,7 @@ std::span<const Stepper> steppers() {
        .first_order = true,
        .symplectic = false,
        .limit = limits::trapezoidal,
-       .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda: none without drag",
+       .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda; never stable without drag",
        .what = "explicit trapezoidal rule (Heun), the assignment's second rule"},
       {.name = "rk4",
        .step = rk4,
@@ -199,9 +199,9 @@ std::span<const Stepper> steppers() {
        .first_order = true,
        .symplectic = false,
        .limit = limits::dopri5,
-       .limit_formula = "its steps follow the tolerance; at a fixed step h omega < 1.0 without drag",
-       .what = "Dormand-Prince 5(4) with error control and dense output: give --tol, not --step; beside a sphere its "
-               "steps are at most the scene's own, since contact acts on whole steps",
+       .limit_formula = "steps follow the tolerance; at a fixed step: h omega < 1.0 without drag",
+       .what = "Dormand-Prince 5(4) with error control and dense output: give --tol, not --step; with contact, its "
+               "steps are at most the scene's, because contact acts on whole steps",
        .adaptive = true},
       {.name = "implicit-euler",
        .step = implicit_euler,
@@ -233,8 +233,8 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::none,
        .limit_formula = "stable at every step on one spring",
-       .what = "extended position-based dynamics, springs of compliance 1/k swept once a step; the one rule here that "
-               "keeps hard distances",
+       .what = "extended position-based dynamics, springs of compliance 1/k, swept once per step; the only rule here "
+               "that supports hard distances",
        .hard_constraints = true},
   };
   static_assert(std::all_of(std::begin(table), std::end(table), [](const Stepper& s) {

@@ -490,7 +490,7 @@ TEST(Program, ClassResultsLeaveTheUsersFilesAlone) {
   write_file(out / "table.csv", "mine");
   const Called refused = call(words);
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.said.find("holds files that are not of crosscheck grade a1-steppers (table.csv)"),
+  EXPECT_NE(refused.said.find("holds files that crosscheck grade a1-steppers did not write (table.csv)"),
             std::string::npos)
       << refused.said;
   EXPECT_EQ(content_of_file(out / "table.csv"), "mine");

@@ -110,7 +110,7 @@ const std::vector<Breakage>& breakages() {
        "duration = 2.0\nsamples = 40",
        "duraton = 2.0",
        6,
-       {"did you mean 'duration'?", "missing as well: samples = a whole number"}},
+       {"did you mean 'duration'?", "also missing: samples = a whole number"}},
       {"twice", "mass = 0.5", "mass = 0.5\nmass = 0.6", 19, {"mass is defined twice in this table, first in line 18"}},
       {"a table twice",
        "[drag]",

@@ -217,11 +217,11 @@ TEST(Bending, FaultsNameTheLineTheKeyAndWhatWasExpected) {
   EXPECT_TRUE(contains(message_of(scene_text("[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [1, 0, 0]\n"
                                              "v = [0.1, 1, 0]\nmass = 1\nbending = 1\n[grid.stiffness]\n"
                                              "structural = 1\n")),
-                       "bad.toml:16: grid.bending: expected none where u and v are not at right angles"));
+                       "bad.toml:16: grid.bending: expected no bending unless u and v are at right angles"));
   EXPECT_TRUE(contains(message_of(scene_text("[grid]\nsize = [3, 3, 2]\norigin = [0, 0, 0]\nu = [1, 0, 0]\n"
                                              "v = [0, 1, 0]\nw = [0, 0, 1]\nmass = 1\nbending = 1\n"
                                              "[grid.stiffness]\nstructural = 1\n")),
-                       "bad.toml:17: grid.bending: expected none with a size of three numbers"));
+                       "bad.toml:17: grid.bending: expected no bending with a size of three numbers"));
 }
 
 TEST(Bending, IsInTheFingerprint) {

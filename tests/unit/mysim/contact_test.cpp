@@ -67,10 +67,10 @@ TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
   EXPECT_EQ(remark("leapfrog", ContactRule::coulomb), "");
   EXPECT_EQ(remark("symplectic-euler", ContactRule::coulomb), "");
   for (const std::string& said : {remark("leapfrog", ContactRule::sticky), remark("suzuki4", ContactRule::coulomb)})
-    EXPECT_TRUE(
-        contains(said,
-                 "computed in double precision: single is for regular cloths of 17 columns or more, without "
-                 "bending, dashpots and air, and with contact for symplectic-euler and leapfrog without +sticky"))
+    EXPECT_TRUE(contains(
+        said,
+        "computed in double precision: single precision requires a regular cloth of 17 columns or more without "
+        "bending, dashpots and aerodynamics; with contact, also symplectic-euler or leapfrog without +sticky"))
         << said;
 }
 

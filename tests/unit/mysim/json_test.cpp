@@ -159,8 +159,8 @@ TEST(JsonField, WhatIsNoJsonIsToldWithLineAndColumn) {
       {"[1]\n]", "f: expected JSON; line 2, column 1: unexpected ']'; expected end of input"},
       {"[1e999]", "f: expected JSON; line 1, column 6: number overflow parsing '1e999'; [0]: expected a finite number"},
       {"\"\xff\"", "f: expected JSON; line 1, column 2: invalid string: ill-formed UTF-8 byte"},
-      {std::string(501, '['), "f: expected JSON; nested more than 500 deep"},
-      {std::string(1 << 20, '['), "f: expected JSON; nested more than 500 deep"}};
+      {std::string(501, '['), "f: expected JSON; nested more than 500 levels deep"},
+      {std::string(1 << 20, '['), "f: expected JSON; nested more than 500 levels deep"}};
   for (const auto& [text, message] : cases) {
     const std::string said = refusal_of([&] { JsonField::parse(text, "f"); });
     EXPECT_TRUE(begins(said, message)) << said;

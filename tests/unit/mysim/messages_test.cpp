@@ -88,10 +88,10 @@ TEST(ErrorMessages, TheSystemsOwnWordsBecomeALineThatNamesThePath) {
   const std::string full = caught_message(
       [] { throw fs::filesystem_error("cannot copy", "a", "b", std::make_error_code(std::errc::no_space_on_device)); });
   EXPECT_TRUE(contains(full, "a -> b: "));
-  EXPECT_TRUE(contains(full, "expected more room on the disk"));
+  EXPECT_TRUE(contains(full, "expected more free space on the disk"));
   EXPECT_TRUE(contains(caught_message([] { throw std::bad_alloc(); }), "not enough memory"));
   EXPECT_EQ(caught_message([] { throw std::runtime_error("[json.exception.out_of_range.403] key 'x' not found"); }),
-            "a JSON file does not hold what was expected: key 'x' not found");
+            "a JSON file has unexpected content: key 'x' not found");
   EXPECT_EQ(caught_message([] { throw InputError("f:3: x"); }), "f:3: x");
   EXPECT_EQ(run_reporting_errors("test", [] { return 1; }), 1);
   EXPECT_EQ(run_reporting_errors("test", []() -> int { throw std::runtime_error("a tool is missing"); }), 2);

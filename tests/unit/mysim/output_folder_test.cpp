@@ -137,7 +137,7 @@ TEST_P(Output, AForeignFolderIsRefusedAndNothingInItChanges) {
     const Files before = in(target_);
     const auto time = fs::last_write_time(target_);
     const std::string said = refusal();
-    EXPECT_TRUE(contains(said, "--out " + target_.string() + ": holds files that are not of crosscheck report"));
+    EXPECT_TRUE(contains(said, "--out " + target_.string() + ": holds files that crosscheck report did not write"));
     EXPECT_TRUE(contains(said, name));
     EXPECT_TRUE(contains(said, "nothing in it was changed; give an empty or a new folder, or move them away"));
     EXPECT_EQ(in(target_), before);
@@ -154,7 +154,7 @@ TEST_P(Output, AnotherCommandsFolderAndADamagedManifestAreRefused) {
   EXPECT_EQ(refusal("run"), "");
   for (const char* text : {"", "{}", "[1]", "{\"format\": 2}"}) {
     std::ofstream(target_ / Manifest::file_name) << text;
-    EXPECT_TRUE(contains(refusal("run"), "crosscheck.json: expected what this version of crosscheck writes"));
+    EXPECT_TRUE(contains(refusal("run"), "crosscheck.json: expected a list of results that this version"));
     EXPECT_EQ(read(target_ / "run.json"), "{}");
   }
 }
@@ -162,10 +162,10 @@ TEST_P(Output, AnotherCommandsFolderAndADamagedManifestAreRefused) {
 TEST_P(Output, AManifestThatIsAPipeOrALinkIsRefusedAndNotRead) {
   fs::create_directories(target_);
   ASSERT_EQ(mkfifo((target_ / Manifest::file_name).c_str(), 0600), 0);
-  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected what this version of crosscheck writes"));
+  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected a list of results that this version"));
   fs::remove(target_ / Manifest::file_name);
   fs::create_symlink("/dev/zero", target_ / Manifest::file_name);
-  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected what this version of crosscheck writes"));
+  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected a list of results that this version"));
 }
 
 TEST_P(Output, AFileAndAPlaceThatCannotBeWrittenAreNoFolders) {
@@ -248,7 +248,7 @@ TEST_P(Output, ManifestThatListsPathsOutsideIsRefusedAndNothingChanges) {
                fmt::format(R"({{"format":1,"command":"report","state":"finished","process":{{"id":1,"since":""}},)"
                            R"("files":{{"{}":{{"bytes":6,"hash":null}}}}}})",
                            path));
-    EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected what this version of crosscheck writes")) << path;
+    EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected a list of results that this version")) << path;
     EXPECT_THROW(read_manifest(target_), InputError) << path;
   }
   EXPECT_EQ(read(folder_ / "mine"), "mine");

@@ -124,7 +124,7 @@ TEST(PlaneFile, ReportsWhatIsWrongWithFileLineAndKey) {
   // A particle that lies, up to rounding, on two opposite planes whose gap is smaller than their margins.
   const std::string middle = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
   const std::string thin = message_of(scene_text(middle + plane("0, 0, 0", "0, 1, 0") + plane("0, 0, 0", "0, -1, 0")));
-  EXPECT_TRUE(contains(thin, "plane[1].point: expected more than the two margins, 0 m, to the opposite plane, got 0 m"))
+  EXPECT_TRUE(contains(thin, "plane[1].point: expected more than both margins, 0 m, to the opposite plane, got 0 m"))
       << thin;
   EXPECT_EQ(message_of(scene_text(middle + plane("0, -0.1, 0", "0, 1, 0", "margin = 0.1\n") +
                                   plane("0, 1, 0", "0, -1, 0", "velocity = [0, 1, 0]\n"))),

@@ -302,7 +302,7 @@ TEST(SceneFile, FirstOrderScenesHaveNoMassNoForceNoGrid) {
   const std::string grid =
       "[grid]\nsize = [2, 2]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 1, 0]\nmass = 1\n"
       "stiffness = {structural = 1}\n";
-  EXPECT_TRUE(contains(message_of(scene_text(grid + rotation)), "bad.toml:10: grid: expected single particles"));
+  EXPECT_TRUE(contains(message_of(scene_text(grid + rotation)), "bad.toml:10: grid: expected only single particles"));
 }
 
 TEST(SceneFile, CoincidingEndsAreFineAtRestLengthZero) {

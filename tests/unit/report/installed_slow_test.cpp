@@ -92,7 +92,7 @@ TEST_F(Installed, AProgramAwayFromItsFilesSaysSo) {
   fs::copy_file(prefix() / "lib/crosscheck/crosscheck", work() / "alone");
   const ProgramResult end = run_program({(work() / "alone").string(), "list", "scenes"}, work());
   EXPECT_EQ(end.status, 2);
-  EXPECT_TRUE(contains(end.err, "there is no file crosscheck.folders beside it or above")) << end.err;
+  EXPECT_TRUE(contains(end.err, "found no file crosscheck.folders next to it")) << end.err;
 }
 
 TEST_F(Installed, TheLibraryIsFoundAndRuns) {

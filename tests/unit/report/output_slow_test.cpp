@@ -103,7 +103,7 @@ TEST_F(OutputOfReport, FoldersOfOthersAndTwoWritersAreRefused) {
     const int before = files();
     const ProgramResult refused = start({}, report(out));
     EXPECT_EQ(refused.status, 2) << refused.out;
-    EXPECT_NE(refused.err.find("holds files that are not of crosscheck report"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("holds files that crosscheck report did not write"), std::string::npos) << refused.err;
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
     EXPECT_EQ(files(), before);
     EXPECT_EQ(read(folder_ / "foreign/data/report.json"), "mine");

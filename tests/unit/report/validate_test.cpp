@@ -140,7 +140,7 @@ TEST_F(CliValidate, NearestNamesAreProposed) {
   expect_refusal({"--verison"}, {"unknown option '--verison'", "did you mean '--version'?"});
   expect_refusal({"run", "chain", "--stpe", "1e-3"}, {"run: unknown option '--stpe'", "did you mean '--step'?"});
   expect_refusal({"run", "--methd=rk4"}, {"unknown option '--methd'", "did you mean '--method'?"});
-  expect_refusal({"run", "chain", "spring"}, {"one word too many: 'spring'"});
+  expect_refusal({"run", "chain", "spring"}, {"unexpected argument 'spring'"});
   expect_refusal({"run", "chian"}, {"did you mean 'chain'?"});
   expect_refusal({"run", "chain", "--method", "leapfrg"}, {"did you mean 'leapfrog'?"});
   expect_refusal({"run", "chain", "--method", "bulet/pbd"}, {"did you mean 'bullet/pbd'?"});
