@@ -76,7 +76,7 @@ std::span<const MethodFamily> method_families() {
        .role = Role::integrator,
        .representative = "sundials/arkode",
        .build = Build::debian,
-       .build_text = "Debian's library (generic x86-64, -O2), on a right-hand side of this build",
+       .build_text = "Debian's library (generic x86-64, -O2), with a right-hand side of this build",
        .methods = sundials_methods},
       {.name = "truth", .title = "truth", .role = Role::truth, .methods = truth_methods},
       {.name = "file", .title = "a trajectory", .role = Role::outside},
@@ -176,7 +176,7 @@ Method find_method(const std::string& text) {
   std::error_code unreadable;
   if (std::filesystem::is_regular_file(text, unreadable))
     throw InputError(
-        fmt::format("unknown method: {0} is a file, and a program is written {1}{0}", text, program_prefix));
+        fmt::format("unknown method: {0} is a file; to run it as a program, write {1}{0}", text, program_prefix));
   throw InputError(unknown_name("method", parts[0], names, "crosscheck list methods"));
 }
 
@@ -296,16 +296,15 @@ Outcome run_method(const Method& method, const Scene& scene, const Run& run, std
     Outcome out = method.engine(scene, run, all);
     if (out.verdict != Verdict::ok) return out;
     if (seen.passages > 0)
-      add_remark(out, fmt::format("a particle passed through a sphere between two steps at t = {:.4g} s{}: shorter "
-                                  "steps let it touch",
+      add_remark(out, fmt::format("a particle passed through a sphere between two steps at t = {:.4g} s{}: "
+                                  "shorter steps would detect the contact",
                                   seen.first_passage,
                                   seen.passages > 1 ? fmt::format(", the first of {} passages", seen.passages) : ""));
     if (monitor.largest_ratio() <= DivergenceMonitor::ratio_in_order) return out;
     if (const auto known = bounds(scene, run); known && seen.peak > DivergenceMonitor::allowed * known->speed)
-      add_remark(out,
-                 fmt::format("from one step to the next a particle moved up to {:.3g} times as fast as in the true "
-                             "motion; the step is at its limit or above",
-                             seen.peak / known->speed));
+      add_remark(out, fmt::format("from one step to the next a particle moved up to {:.3g} times as fast as in the "
+                                  "reference solution; the step is at or above its stability limit",
+                                  seen.peak / known->speed));
     return out;
   } catch (const Unsupported& refusal) {
     Outcome out;

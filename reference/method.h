@@ -36,7 +36,7 @@ struct MethodFamily {
   std::string_view variant_of = {};            // the engine of which this is another build; such builds run in
                                                // `regress`, or if named
   Build build = Build::unknown;
-  std::string_view build_text = "a program of its own";
+  std::string_view build_text = "a separate program";
   double call = 200e-9, element = 12e-9;  // s, cost of an evaluation: fixed part, and part per particle and spring
   double start = 0;                       // s, start-up of the family's program
   bool single_precision = false;

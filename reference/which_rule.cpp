@@ -276,7 +276,7 @@ void find_drag(const Method& method, const Candidate& rule, const Scene& plain, 
         found.drag = form.name;
         return;
       }
-    found.reason = "its drag is none of explicit, implicit and exact";
+    found.reason = "its drag is neither explicit nor implicit nor exact";
   } catch (const std::runtime_error& refusal) {
     found.reason = fmt::format("its drag is unknown: {}", refusal.what());
   }
@@ -349,12 +349,12 @@ std::string sentence_of(const FoundRule& found) {
                          found.drag.empty() ? "" : fmt::format(" ({} drag)", found.drag), found.distance, more);
     case FoundRule::nearest:
       return fmt::format(
-          "none of mysim's; nearest is {}, {:.1e} of the size of a net of {} away{}{}", found.rule, found.distance,
+          "no rule of mysim; nearest: {}, at {:.1e} of the size of a net of {}{}{}", found.rule, found.distance,
           found.tried, found.on_one_spring.empty() ? "" : fmt::format("; {} on one spring", found.on_one_spring), more);
     case FoundRule::own_steps:
-      return "chooses its steps: the step asked for has no effect";
+      return "chooses its steps: the requested step has no effect";
     case FoundRule::ignores_step:
-      return "ignores the step: the step asked for has no effect";
+      return "ignores the requested step";
     case FoundRule::unknown:
       break;
   }

@@ -22,9 +22,9 @@ const Scene& with_springs_and_gravity_alone(const Scene& scene) {
     return std::holds_alternative<Springs>(term) || std::holds_alternative<Gravity>(term);
   };
   if (!std::ranges::all_of(scene.model.terms, known) || scene.model.particles.move)
-    throw Unsupported("a body for each piece of the network is made of springs and gravity only, with pins at rest");
+    throw Unsupported("+bodies supports only springs, gravity and pins at rest");
   const auto* springs = scene.model.find<Springs>();
-  if (springs && springs->law != SpringLaw::hooke) throw Unsupported("Bullet's own mass-spring force has Hooke's law");
+  if (springs && springs->law != SpringLaw::hooke) throw Unsupported("Bullet's mass-spring force has only Hooke's law");
   return scene;
 }
 
@@ -88,7 +88,7 @@ class BodiesWorld : public World {
       for (const Spring& s : springs->list)
         if (piece[s.a] == p) own.push_back(&s);
     for (const Spring* s : own) {
-      if (s->k != own[0]->k) throw Unsupported("a mass-spring force of Bullet has one stiffness for a body");
+      if (s->k != own[0]->k) throw Unsupported("Bullet's mass-spring force has only one stiffness per body");
       body.bt->appendLink(node_of[s->a], node_of[s->b], body.bt->m_materials[0]);
     }
     body.bt->updateConstants();

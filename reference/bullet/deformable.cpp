@@ -208,7 +208,7 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
     gravity_force_ = std::make_unique<btDeformableGravityForce>(
         to_bullet(gravity->acceleration / factor_ / body.body().m_gravityFactor));
     world.addForce(&body.body(), gravity_force_.get());
-    mapped_["gravity"] = factor_ != 1 ? "gravity force, g / (1 - h gamma)" : "gravity force, g as it is";
+    mapped_["gravity"] = factor_ != 1 ? "gravity force, g / (1 - h gamma)" : "gravity force, g unchanged";
   }
 }
 
@@ -235,7 +235,7 @@ void DeformableForces::carry_springs(const Springs* springs, const Dashpots* das
                                      bool shipped) {
   const bool can = springs && springs->law == SpringLaw::hooke && stiffnesses(*springs).size() <= 2;
   if (shipped && springs && !can)
-    throw Unsupported("Bullet's own mass-spring force has Hooke's law and two stiffnesses at most");
+    throw Unsupported("Bullet's own mass-spring force supports only Hooke's law and at most two stiffnesses");
   const std::optional<double> dashpot =
       scene_.model.particles.move ? std::nullopt : one_dashpot_each(springs, dashpots);
   if (can && (shipped || !implicit_)) {
@@ -248,11 +248,11 @@ void DeformableForces::carry_springs(const Springs* springs, const Dashpots* das
         static_cast<btScalar>(before_drag(*all.begin(), factor)), static_cast<btScalar>(dashpot.value_or(0)), true,
         before_drag(*all.rbegin(), factor));
     mapped_["stiffness"] = factor_ != 1 ? "Bullet's own mass-spring force, k / (1 - h gamma)"
-                                        : "Bullet's own mass-spring force, k as it is";
+                                        : "Bullet's own mass-spring force, k unchanged";
     if (dashpot) mapped_["dashpots"] = "Bullet's own mass-spring force, solved implicitly";
   } else if (springs) {
     ours.springs = springs;
-    mapped_["stiffness"] = implicit_ ? "force class of our own: second derivatives without their negative part"
+    mapped_["stiffness"] = implicit_ ? "force class of our own: second derivatives clamped to be non-negative"
                            : springs->law == SpringLaw::hooke
                                ? "force class of our own: one stiffness per spring"
                                : "force class of our own: the scene's law, one stiffness per spring";
@@ -415,14 +415,14 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   out.evaluations = out.steps;
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
-        "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), "
-        "so that nodes hop by (v h)^2 / 2R on a sphere; and whatever the step, normals are gradients of a grid of "
-        "distances, off by up to a / 2R = " +
+        "contact: Bullet detects it at the proposed position but uses normal and gap of the old one (a tangent plane), "
+        "so nodes hop by (v h)^2 / 2R on a sphere; at any step, normals are gradients of a grid of distances, which "
+        "are off by up to a / 2R = " +
         normal_error_text(scene, settings.voxel) + "; friction is Coulomb's in both");
   if (scene.model.find<Planes>())
     out.different_law.push_back(
         "contact with planes: a node that lands gets the velocity that takes it to the plane by the end of the step, "
-        "and loses it in the next one; behind a plane that moves it lags by up to the plane's way in a step");
+        "and loses it in the next one; it lags behind a moving plane by up to the plane's displacement in a step");
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {

@@ -16,7 +16,7 @@ namespace {
 
 std::string gravity_text(const BulletDefaults& defaults) {
   return defaults.gravity_factor == 1
-             ? "world info, g as it is"
+             ? "world info, g unchanged"
              : fmt::format("world info, g / {0:g}, and {0:g} as the body's gravity factor", defaults.gravity_factor);
 }
 
@@ -52,8 +52,8 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     add_to_world();
 
     mapped_["stiffness"] = settings.defaults.kLST
-                               ? fmt::format("kLST = {:g}, whatever the scene asks", *settings.defaults.kLST)
-                           : settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
+                               ? fmt::format("kLST = {:g}, regardless of the scene", *settings.defaults.kLST)
+                           : settings.demo ? "kLST = 1, the default of Bullet's demos, regardless of the scene"
                                            : link_stiffness_text(settings.iterations);
     const char *added = "added forces on the nodes at x_n, v_n",
                *own = "Bullet's own model of lift and drag on two sides, C as drag";
@@ -196,26 +196,26 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const Pb
   if (const auto* springs = scene.model.find<Springs>())
     out.different_law.push_back(
         settings.demo || settings.defaults.kLST
-            ? "springs: links as stiff as the iterations make them, whatever stiffness the scene asks for"
+            ? "springs: the stiffness of links depends on the iterations, not on the scene's stiffness"
             : fmt::format("springs: position-based links {}are solved like an implicit step, one after the other",
                           springs->law == SpringLaw::hooke
                               ? "pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
                               : ""));
   if (scene.model.find<Constraints>())
     out.different_law.push_back(
-        "hard distances: each is met at its turn, and spoilt by the next ones; more iterations help");
+        "hard distances: each is satisfied in turn and violated again by the next ones; more iterations help");
   if (settings.own_wind)
     out.different_law.push_back(
         "wind on triangles: Bullet's own drag acts along the wind and is limited by each node's speed, so that it "
         "does not begin on a cloth at rest");
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
-        "contact: whatever the step, normals are gradients of a grid of distances, off by up to a / 2R = " +
+        "contact: at any step, normals are gradients of a grid of distances, which are off by up to a / 2R = " +
         normal_error_text(scene, settings.voxel));
   if (has_contact(scene.model))
     out.different_law.push_back(
-        "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
-        "presses it on; Coulomb's law is not followed");
+        "friction: a touching node loses a fixed share of its tangential motion in each step, regardless of "
+        "the normal force, instead of Coulomb's law");
   return out;
 }
 

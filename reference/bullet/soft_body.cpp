@@ -40,7 +40,7 @@ void require_supported(const Scene& scene, bool may_hang) {
     if (s.restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
   const std::vector<double> margins = margins_of(model);
   if (std::ranges::any_of(margins, [&](double margin) { return margin != margins[0]; }))
-    throw Unsupported("a soft body of Bullet has one margin, the scene's surfaces have several");
+    throw Unsupported("Bullet's soft bodies have a single margin, but the scene's surfaces have several");
   if (!may_hang && std::ranges::max(pieces_of(model)) > 0)
     throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 }

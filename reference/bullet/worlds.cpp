@@ -64,12 +64,12 @@ WorldChoice deformable_explicit(const Options& options) {
       refuse_option("bullet/deformable-explicit", option,
                     "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m), "
                     "+gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to +kLST=1e6, +bodies alone, +in-pieces (in "
-                    "a process of its own) or none");
+                    "a separate process) or none");
   }
   if (bodies && options.size() > 1)
     refuse_option("bullet/deformable-explicit", "bodies", "+bodies without other options");
   if (bodies)
-    return {"Bullet's deformable world, explicit: a body and a spring force of its own for each piece of the network",
+    return {"Bullet's deformable world, explicit: with a separate body and spring force for each piece of the network",
             run_bodies};
   WorldChoice choice{"Bullet's deformable world, explicit: springs in N/m, Coulomb friction", deformable(settings)};
   choice.may_hang = settings.defaults.pieces;

@@ -22,7 +22,7 @@ void certify_particles(const Scene& scene, const Readback& r, CertificateWriter&
       worst = max_or_nan(worst, std::abs(r.mass[i] - p.mass[i]) / p.mass[i]);
       total += p.mass[i];
     }
-  w.deviation("masses", fmt::format("{:.6g} kg in all, free particles", total), worst, 1);
+  w.deviation("masses", fmt::format("{:.6g} kg in total, free particles", total), worst, 1);
   w.row("pins", fmt::format("{}", p.pins.size()), fmt::format("{}", std::count(r.pinned.begin(), r.pinned.end(), 1)),
         std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
 }
@@ -71,7 +71,7 @@ void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w)
 
 void certify_start(const Scene& scene, const Readback& r, CertificateWriter& w) {
   if (!r.start || r.start->x.cols() != scene.start.x.cols()) {
-    w.row("start", "as in the scene", r.start ? "other particles" : "not told",
+    w.row("start", "as in the scene", r.start ? "other particles" : "not reported",
           r.start ? Parity::mismatch : Parity::unattested);
     return;
   }
@@ -140,7 +140,7 @@ std::string summary_of(const Certificate& certificate) {
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome) {
   Certificate certificate{method, scene.name, {}};
   if (!outcome.readback) {
-    certificate.rows.push_back({"whole scene", "hash " + scene.hash, "-", "not told", Parity::unattested});
+    certificate.rows.push_back({"whole scene", "hash " + scene.hash, "-", "not reported", Parity::unattested});
     return certificate;
   }
   const Readback& r = *outcome.readback;

@@ -72,7 +72,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     // differences of lengths that are stretched by a tenth lose one digit, and sums of a dozen springs lose another
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
-      w.row(quantity, requested, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
+      w.row(quantity, requested, fmt::format("{}; {} of {} exert none there", found, force_free, term.list.size()),
             Parity::unattested);
     else
       w.row(quantity, requested, found, same);
@@ -146,7 +146,7 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
     }
     w.row("hard distances", fmt::format("{}", hard), fmt::format("{}, {}", hard, ends ? "same ends" : "other ends"),
           ends);
-    w.deviation("their lengths", fmt::format("up to {:.6g} m", scale), off, scale);
+    w.deviation("lengths of hard distances", fmt::format("up to {:.6g} m", scale), off, scale);
   }
   if (springs)
     for (const Family family : {Family::single, Family::structural, Family::shear, Family::bend})

@@ -24,14 +24,14 @@ class CertificateWriter {
     if (how == readback_.mapped.end() && quantity.ends_with("stiffness")) how = readback_.mapped.find("stiffness");
     if (how == readback_.mapped.end() && quantity == "wind") how = readback_.mapped.find("wind on triangles");
     certificate_.rows.push_back({quantity, std::move(requested),
-                                 how == readback_.mapped.end() ? "as it is" : how->second, std::move(read_back),
+                                 how == readback_.mapped.end() ? "unchanged" : how->second, std::move(read_back),
                                  parity});
   }
   void row(const std::string& quantity, std::string requested, std::string read_back, bool same) {
     row(quantity, std::move(requested), std::move(read_back), same ? Parity::match : Parity::mismatch);
   }
   void add_unattested(const std::string& quantity, std::string requested) {
-    row(quantity, std::move(requested), "not told", Parity::unattested);
+    row(quantity, std::move(requested), "not reported", Parity::unattested);
   }
   /// Row for a quantity compared by its largest deviation, relative to its scale.
   void deviation(const std::string& quantity, std::string requested, double largest, double scale) {

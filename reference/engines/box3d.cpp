@@ -104,7 +104,7 @@ class Box3dWorld : public World {
     r.may_sleep = b3World_IsSleepingEnabled(world_);
     r.step = float(scene_.step);
     r.spheres.emplace(), r.planes.emplace();
-    r.mapped = {{"springs", joints_.empty() ? "forces" : "distance joints of a frequency and a damping ratio"},
+    r.mapped = {{"springs", joints_.empty() ? "forces" : "distance joints with frequency and damping ratio"},
                 {"drag", "linear damping (1/s)"}};
     r.settings = {{"sub-steps", std::to_string(substeps_)}};
     if (joints_.empty() && substeps_ > 1)

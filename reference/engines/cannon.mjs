@@ -13,7 +13,7 @@ import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
 const description = {
   engine: 'cannon-es 0.20.0',
   terms: ['springs', 'dashpots', 'constraints', 'gravity', 'drag', 'wind', 'sphere', 'plane'],
-  lacks: { bending: 'it has springs and distance constraints only' },
+  lacks: { bending: 'it has only springs and distance constraints' },
 };
 const { KINEMATIC, DYNAMIC } = CANNON.Body, vec3 = (v, i = 0) => new CANNON.Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
 const components = ({ x, y, z }) => [x, y, z], ball_group = 1, obstacle_group = 2;
@@ -50,7 +50,7 @@ function obstacle(of) {
 serve(description, (scene) => {
   const kind = scene.option('springs', ['spring', 'distance']), iterations = scene.option('iterations', 10);
   const written = scene.option('damping', ['zero', 'as-written']) === 'as-written', { h } = scene;
-  if (written && scene.dashpots.count) unsupported('damping=as-written: takes no dashpots');
+  if (written && scene.dashpots.count) unsupported('damping=as-written does not support dashpots');
   CANNON.Body.idCounter = 0;  // body numbers must not depend on earlier scenes
   const world = new CANNON.World({ gravity: vec3(scene.gravity), allowSleep: false }), bodies = particles(scene);
   world.solver.iterations = iterations;
@@ -104,10 +104,10 @@ serve(description, (scene) => {
   };
   const different_law = [];
   if (kind === 'distance' && springs.length)
-    different_law.push('springs: distance constraints that hold the rest lengths, whatever the stiffness');
+    different_law.push('springs: distance constraints that keep the rest lengths, regardless of the stiffness');
   if (written && pulling.length) different_law.push('dashpots: 1 N s/m in each spring, by damping: 0 of its options');
   if (obstacles.some(({ of }) => of.friction > 0))
-    different_law.push('friction: at most mu m |g|, whatever the normal force is');
+    different_law.push('friction: at most mu m |g|, regardless of the normal force');
 
   return {
     step(t, next) {

@@ -71,7 +71,7 @@ class SoftBody {
     creation.mRestitution = 0;         // contacts use the larger of body's and sphere's
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
-    if (!body) throw std::runtime_error("Jolt made no soft body");
+    if (!body) throw std::runtime_error("Jolt could not create the soft body");
     all.AddBody(body->GetID(), JPH::EActivation::Activate);
     for (const Sphere& s : spheres) {
       const JPH::RVec3 centre(s.centre[0], s.centre[1], s.centre[2]);
@@ -80,7 +80,7 @@ class SoftBody {
       sphere.mFriction = float(s.friction * s.friction);
       sphere.mRestitution = float(s.restitution);
       balls.push_back(all.CreateBody(sphere));
-      if (!balls.back()) throw std::runtime_error("Jolt made no ball");
+      if (!balls.back()) throw std::runtime_error("Jolt could not create a ball");
       all.AddBody(balls.back()->GetID(), JPH::EActivation::DontActivate);
     }
   }
@@ -96,7 +96,7 @@ class SoftBody {
 
   void step(double h) {
     if (system.Update(float(h), 1, &temporary_, &jobs_) != JPH::EPhysicsUpdateError::None)
-      throw std::runtime_error("Jolt ran out of its buffers of contacts");
+      throw std::runtime_error("Jolt ran out of contact buffers");
   }
   JPH::SoftBodyMotionProperties& motion() const {
     return *static_cast<JPH::SoftBodyMotionProperties*>(body->GetMotionProperties());
@@ -121,21 +121,21 @@ double supported_damping(const Scene& scene, int iterations) {
   for (const auto& [term, why] :
        {std::pair("bending", "Jolt bends by angles between triangles, not by a rigidity in N m"),
         std::pair("dashpots", "Jolt damps velocities only, not along springs"),
-        std::pair("aerodynamics", "Jolt has no forces of the air on triangles")})
+        std::pair("aerodynamics", "Jolt has no aerodynamic forces on triangles")})
     if (scene.term(term)) unsupported(std::string("not in Jolt: ") + term + ": " + why);
   scene.require_only({"springs", "constraints", "gravity", "drag", "wind", "sphere"});
-  if (scene.spring_law != "hooke") unsupported("springs of the law " + scene.spring_law + ": Jolt has Hooke's");
-  scene.require_resting_surfaces("in contact Jolt takes the velocity of a kinematic sphere for zero");
+  if (scene.spring_law != "hooke") unsupported("springs of the law " + scene.spring_law + ": Jolt has only Hooke's");
+  scene.require_resting_surfaces("in contact, Jolt treats the velocity of a kinematic sphere as zero");
   std::optional<double> rate;
   for (size_t i = 0; i < scene.x.size(); ++i) {
     if (scene.pinned[i]) continue;
     const double gamma = scene.drag[i] / scene.mass[i];
     // rates recovered from c = m gamma differ by up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate)
-      unsupported("drag that differs between particles: Jolt has one damping (1/s) for a body");
+      unsupported("drag that differs between particles: Jolt has one damping (1/s) per body");
     if (!rate) rate = gamma;
   }
-  if (rate.value_or(0) * scene.step >= iterations) unsupported("drag that takes all speed in one sub-step");
+  if (rate.value_or(0) * scene.step >= iterations) unsupported("drag that removes all speed in one sub-step");
   return rate.value_or(0);
 }
 
@@ -287,7 +287,7 @@ class JoltWorld : public World {
     for (const Spring& wanted : edges_of(scene_)) {
       const auto at = found.lower_bound({wanted.a, wanted.b});
       if (at == found.end() || at->first != std::pair(wanted.a, wanted.b))
-        throw std::runtime_error("Jolt's body lacks an edge that it was given");
+        throw std::runtime_error("an edge that was given to Jolt is missing in its body");
       r.links.push_back(at->second);
       found.erase(at);
     }

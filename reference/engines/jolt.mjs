@@ -112,9 +112,9 @@ function springForces(world, springs, x) {
 serve(description, (scene) => {
   const iterations = scene.option('n', 1), frame = scene.option('frame', ['scene', 'world']), { h, pins } = scene;
   if (scene.spheres.some((ball) => ball.motion))
-    unsupported('moving spheres: in contact Jolt takes the velocity of a kinematic sphere for zero');
-  const damping = scene.oneDamping('drag that differs between particles: Jolt has one damping (1/s) for a body');
-  if (damping * h >= iterations) unsupported('drag that takes all speed in one sub-step');
+    unsupported('moving spheres: in contact, Jolt treats the velocity of a kinematic sphere as zero');
+  const damping = scene.oneDamping('drag that differs between particles: Jolt has one damping (1/s) per body');
+  if (damping * h >= iterations) unsupported('drag that removes all speed in one sub-step');
   const world = new World(), rods = scene.rods.list.map(({ a, b, length: rest }) => ({ a, b, rest, compliance: 0 }));
   world.setGravity(scene.gravity);
   const springs = scene.springs.list.map((one) => ({ ...one, rest: one.rest_length, compliance: 1 / one.stiffness }));

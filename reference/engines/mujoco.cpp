@@ -41,7 +41,7 @@ class MujocoWorld : public World {
     tendons_ = options.get("springs", {"tendon", "callback"}) == "tendon" && scene.spring_law == "hooke";
     joint_drag_ = options.get("drag", {"implicit", "callback"}) == "implicit";
     options.refuse_others();
-    scene.require_resting_surfaces("in contact MuJoCo takes the velocity of a mocap body for zero");
+    scene.require_resting_surfaces("in contact, MuJoCo treats the velocity of a mocap body as zero");
     mju_user_error = fail, mju_user_warning = keep_warning;
     build(xml());
     if (!joint_drag_ || called_.wind || called_.springs.size() + called_.dashpots.size() + called_.bending.size() > 0)

@@ -115,7 +115,7 @@ serve(description, (scene) => {
   const different_law = [], soft = `soft, with a time constant of ${timeconst} s`;
   if (obstacles.length) different_law.push(`contact: ${soft}`);
   if (rods.count) different_law.push(`constraints: ${soft}`);
-  if (rk4 && (pins.motion || scene.wind?.gusts)) different_law.push('motion: RK4 keeps pins and gusts during a step');
+  if (rk4 && (pins.motion || scene.wind?.gusts)) different_law.push('motion: RK4 freezes pins and gusts in each step');
 
   return {
     step(t, next) {

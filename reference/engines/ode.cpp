@@ -21,7 +21,7 @@ class OdeWorld : public World {
     const bool joints = options.get("springs", {"forces", "dball"}) == "dball";
     iterations_ = options.get("n", 20);  // iterations of the solver of joints and contacts
     options.refuse_others();
-    scene.require_resting_surfaces("this adapter gives ODE contacts with bodies at rest only");
+    scene.require_resting_surfaces("this adapter supports only contact with bodies at rest");
     if (joints && scene.spring_law != "hooke") unsupported("springs=dball: ODE's joints have Hooke's law");
     dInitODE2(0);
     world_ = dWorldCreate();
@@ -112,7 +112,7 @@ class OdeWorld : public World {
     for (size_t i = 0; i < damping.size(); ++i) {
       const Spring& s = scene_.springs[i];
       const Vec &a = scene_.x[s.a], &b = scene_.x[s.b];
-      if (length(a - b) == 0) unsupported("springs=dball: a joint whose ends coincide pulls in a direction of its own");
+      if (length(a - b) == 0) unsupported("springs=dball: a joint whose ends coincide pulls in an arbitrary direction");
       const double hk = scene_.step * s.stiffness, c = damping[i];
       joints_.push_back(dJointCreateDBall(world_, nullptr));
       dJointAttach(joints_.back(), bodies_[s.a], bodies_[s.b]);

@@ -56,7 +56,7 @@ function softBody(world, scene, springs) {
   const { x, mass, pinned: p } = scene, w = (i) => (p[i] ? 0 : 1 / mass[i]), ends = springs.flatMap((s) => [s.a, s.b]);
   const hertz = ({ a, b, k }) => Math.sqrt(k * (w(a) + w(b))) / (2 * Math.PI);
   const gamma = scene.oneDamping('springs=softbody: drag that differs between particles');
-  if (scene.dashpots.count) unsupported('springs=softbody: dashpots apart from springs');
+  if (scene.dashpots.count) unsupported('springs=softbody: dashpots without springs');
   if (scene.spheres.length + scene.planes.length) unsupported('springs=softbody: no contact without a surface');
   if (springs.some((one) => !(Math.abs(scene.lengthOf(one) - one.rest) <= 1e-6 * one.rest)))
     unsupported('springs=softbody: edges take their rest lengths from the start, which is not at rest here');

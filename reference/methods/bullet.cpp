@@ -29,8 +29,8 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   bullet::WorldChoice chosen = bullet::choose_world(world, options);
   if (chosen.may_hang)
     throw InputError(
-        fmt::format("method bullet/{}: +in-pieces may hang and has no time limit here; expected it in a "
-                    "process of its own: bullet32/{}+in-pieces+timeout=SECONDS, or exec:",
+        fmt::format("method bullet/{}: +in-pieces may hang and has no time limit here; expected a "
+                    "separate process: bullet32/{}+in-pieces+timeout=SECONDS, or exec:",
                     world, world));
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
@@ -46,11 +46,11 @@ Method in_single_precision(const std::string& world, const MethodOptions& option
   for (const std::string& option : options) add_option(program, "bullet32/" + world, option);
   const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before running
   program.options.insert(program.options.begin(), "world=" + world);
-  Method method{"bullet32/" + world, chosen.what + "; in single precision, as a program of its own", "",
+  Method method{"bullet32/" + world, chosen.what + "; in single precision, as a separate program", "",
                 [program](const Scene& scene, const Run& run, Observer& observer) {
                   if (!std::filesystem::exists(program.path))
-                    throw Unsupported(fmt::format("{} is not there; it is the build's target bullet32_engine",
-                                                  program.path.string()));
+                    throw Unsupported(
+                        fmt::format("{} is missing; the build target bullet32_engine makes it", program.path.string()));
                   return run_outside_engine(program, scene, run, observer);
                 },
                 ContactLoss::sampled};

@@ -17,22 +17,22 @@ struct Integrator {
 
 std::vector<Integrator> integrators() {
   return {
-      {"odeint/rk4", "", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4",
+      {"odeint/rk4", "", "Boost's odeint, classic Runge-Kutta, with an independently written right-hand side", "rk4",
        run_odeint_rk4, false},
       {"odeint/dopri5", "",
-       "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step", "",
+       "Boost's odeint, Dormand-Prince 5(4) with error control, same right-hand side: give --tol, not --step", "",
        run_odeint_dopri5, true},
       {"odeint/dopri5", "events",
-       "Boost's odeint, Dormand-Prince 5(4), beside spheres: cut where a particle hits, leaves, stops and slips", "",
-       run_event_driven, true},
+       "Boost's odeint, Dormand-Prince 5(4), with contact: restarted where a particle hits, leaves, sticks or slips",
+       "", run_event_driven, true},
       {"sundials/arkode", "",
-       "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step; +order=4: Zonneveld "
-       "4(3)",
+       "SUNDIALS ARKODE, Fehlberg 7(8) with error control, same right-hand side: give --tol, not --step; +order=4: "
+       "Zonneveld 4(3)",
        "", run_arkode, true},
-      {"sundials/arkode", "order=4", "SUNDIALS ARKODE, Zonneveld 4(3) with error control, on the same", "",
+      {"sundials/arkode", "order=4", "SUNDIALS ARKODE, Zonneveld 4(3) with error control, same right-hand side", "",
        run_arkode_order4, true},
       {"sundials/cvode", "",
-       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step", "",
+       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, same right-hand side: give --tol, not --step", "",
        run_cvode, true, true}};
 }
 

@@ -66,8 +66,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   if (contact == ContactRule::events) {
     same_as += "+events";  // with contact, the rules with and without events differ by more than round-off
     if (execution.path == ExecutionPath::single_precision)
-      throw InputError(
-          fmt::format("method {}: +events locates contact in double precision; expected it without +single", name));
+      throw InputError(fmt::format("method {}: +events requires double precision; expected no +single", name));
   }
   Method method{name,
                 fmt::format("{} (order {}{}; {})", stepper.what, stepper.order,
@@ -77,7 +76,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                   Outcome out = simulate(rule, contact, scene, run, observer, execution);
                   if (contact == ContactRule::sticky && has_contact(scene.model))
                     out.different_law.push_back(
-                        "contact: a touching particle is put back to where it came from and loses all its velocity");
+                        "contact: a touching particle returns to its previous position and loses all its velocity");
                   return out;
                 },
                 ContactLoss::reported,

@@ -27,7 +27,7 @@ Method exec_method(const std::string& text) {
         fmt::format("method exec:{}: expected a path without control and hidden characters", shell_quote(text)));
   const auto program = find_program(text);
   Method method{.name = std::string(program_prefix) + text,
-                .what = "an outside program that speaks the engine protocol",
+                .what = "an external program that implements the engine protocol",
                 .rule = "",
                 .engine = [program](const Scene& scene, const Run& run,
                                     Observer& observer) { return run_outside_engine(program, scene, run, observer); },

@@ -29,7 +29,7 @@ Method truth_method(Tier tier, const MethodOptions& options) {
   if (!options.empty()) refuse_option(name, options[0], "none");
   return {name,
           tier == Tier::exact ? "closed form, where the scene has one"
-                              : "two independent routes, refined until they give the error bar",
+                              : "two independent methods, refined; their difference gives the error bar",
           "",
           [tier](const Scene& scene, const Run& run, Observer& observer) {
             const auto truth = truth_of(scene, run);
@@ -52,12 +52,12 @@ MethodOptions names_of_discrete_rules() {
 Method discrete_method(const MethodOptions& options) {
   const std::string name = "truth/exact-discrete";
   const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));
-  if (options.empty()) throw InputError(fmt::format("method {}: no rule; expected {}", name, known));
+  if (options.empty()) throw InputError(fmt::format("method {}: the rule is missing; expected {}", name, known));
   if (options.size() > 1) refuse_option(name, options[1], known);
   for (const DiscreteStepper& rule : discrete_steppers())
     if (rule.name == options[0])
       return {.name = name,
-              .what = fmt::format("closed form of what {} should produce, on linear scenes", rule.name),
+              .what = fmt::format("closed form of the solution by {}, for linear scenes", rule.name),
               .rule = "",
               .engine = [&rule](const Scene& scene, const Run& run,
                                 Observer& observer) { return replay(discrete_truth(rule, scene, run), run, observer); },

@@ -47,14 +47,13 @@ bool between_zero_and_one(double value) { return value > 0 && value < 1; }
 
 constexpr std::string_view a_positive = "a number above zero", a_share = "a number from 0 to below 1",
                            a_link =
-                               "a number above 0 and below 1: a link at 1 is rigid, above 1 it over-relaxes, from "
-                               "2 on it explodes, and none of these is a stiffness",
+                               "a number above 0 and below 1 (a link is rigid at 1, over-relaxes above 1, and "
+                               "explodes from 2 on, without a stiffness)",
                            always = "everywhere", coulomb = "everywhere: Coulomb's law, without restitution",
                            // 0.03 is sequential_limit
-    in_nets =
-        "on one link of small strain; in a net up to k h^2 / mu of about 0.03, above which it is softer than asked";
+    in_nets = "on one link at small strain; in a net up to k h^2 / mu of about 0.03, above which the net is too soft";
 
-NumberRule plain(SceneNumber quantity, std::string_view name, std::string_view how = "as it is",
+NumberRule plain(SceneNumber quantity, std::string_view name, std::string_view how = "unchanged",
                  std::string_view holds = always) {
   return {quantity, name, unit_of(quantity), how, how, holds, as_it_is, as_it_is};
 }
@@ -70,7 +69,7 @@ NumberRule link(std::string_view name, Gather gather) {
   return {.quantity = SceneNumber::stiffness,
           .name = name,
           .unit = "1",
-          .formula = "1 - (1 + k h^2 / mu)^(-1/n), mu = 1 / (1/m_a + 1/m_b), without the term of a pin",
+          .formula = "1 - (1 + k h^2 / mu)^(-1/n), mu = 1 / (1/m_a + 1/m_b), with 1/m = 0 for pins",
           .inverse = "k = mu / h^2 ((1 - value)^-n - 1)",
           .holds = in_nets,
           .to = [](double k, const Context& at) { return bullet::link_stiffness(k, at.mu, at.h, at.n); },
@@ -119,7 +118,7 @@ NumberRule frequency(std::string_view name) {
   return {.quantity = SceneNumber::stiffness,
           .name = name,
           .unit = "Hz",
-          .formula = "sqrt(k / mu) / 2 pi, mu = 1 / (1/m_a + 1/m_b), without the term of a pin",
+          .formula = "sqrt(k / mu) / 2 pi, mu = 1 / (1/m_a + 1/m_b), with 1/m = 0 for pins",
           .inverse = "k = mu (2 pi value)^2",
           .holds = "for short sub-steps h / n: the rule damps along the line like a dashpot of k h / n",
           .to = [](double k, const Context& at) { return std::sqrt(k / at.mu) / turn; },
@@ -133,7 +132,7 @@ NumberRule damping_ratio(std::string_view name) {
           .unit = "1",
           .formula = "c / (2 sqrt(k mu)), k of the spring between the same ends",
           .inverse = "c = 2 value sqrt(k mu)",
-          .holds = "beside a spring; the rule adds pi f h / n to it",
+          .holds = "parallel to a spring; the rule adds pi f h / n",
           .to = [](double c, const Context& at) { return c / (2 * std::sqrt(at.k * at.mu)); },
           .from = [](double ratio, const Context& at) { return 2 * ratio * std::sqrt(at.k * at.mu); },
           .condition = [](double, const Context&) { return 3.; }};  // k and the masses are rounded as well
@@ -151,13 +150,13 @@ NumberRule dividing_damping(std::string_view name) {
 }
 
 std::vector<EngineNumbers> make_table() {
-  NumberRule inverse_mass{SceneNumber::mass, "mInvMass", "1/kg",    "1 / m, and 0 of a pin",
+  NumberRule inverse_mass{SceneNumber::mass, "mInvMass", "1/kg",    "1 / m, and 0 for pins",
                           "m = 1 / value",   always,     inverse,   inverse,
                           Gather::each,      a_positive, above_zero};
   NumberRule total_mass{.quantity = SceneNumber::mass,
                         .name = "total_mass",
                         .unit = "kg",
-                        .formula = "m times the number of particles, pins among them: all are as heavy",
+                        .formula = "m times the number of particles, including pins: all masses are equal",
                         .inverse = "m = value / number of particles",
                         .holds = "where all masses are the same",
                         .to = [](double m, const Context& at) { return m * at.particles; },
@@ -205,7 +204,7 @@ std::vector<EngineNumbers> make_table() {
       .from = [](double value, const Context& at) { return bullet::drag_of_damping(value * at.h / at.n, at.h / at.n); },
       .gather = Gather::same,
       .condition = [](double value, const Context& at) { return bullet::damping_condition(value * at.h / at.n); }};
-  constexpr std::string_view stays = "k stays; the springs' dashpots are left out";
+  constexpr std::string_view stays = "k is unchanged; dashpots of springs are omitted";
   return {
       {.title = "the scene's own numbers",
        .iterations = "",
@@ -214,24 +213,25 @@ std::vector<EngineNumbers> make_table() {
              return m.family().is_engine() && !m.position_based && (m.implicit || m.family().is_subject());
            },
        .rules = {mass_as_it_is(), plain(SceneNumber::drag, "gamma"), plain(SceneNumber::stiffness, "k"),
-                 plain(SceneNumber::dashpot, "c"), plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
-      {.title = "XPBD, one pass over the springs in a step",
+                 plain(SceneNumber::dashpot, "c"), plain(SceneNumber::friction, "friction", "unchanged", coulomb)}},
+      {.title = "XPBD, one pass over the springs per step",
        .iterations = "",
        .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::hooke; },
        .rules = {mass_as_it_is(),
-                 plain(SceneNumber::drag, "gamma", "as it is: v / (1 + h gamma), as is what a constraint adds to v"),
-                 compliance("compliance", "1 / k; in the step compliance / h^2 beside the inverse masses"),
-                 plain(SceneNumber::dashpot, "c", "as it is, implicit along the line"),
-                 plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+                 plain(SceneNumber::drag, "gamma",
+                       "unchanged: v / (1 + h gamma), which also applies to what a constraint adds to v"),
+                 compliance("compliance", "1 / k; a step adds compliance / h^2 to the inverse masses"),
+                 plain(SceneNumber::dashpot, "c", "unchanged, implicit along the line"),
+                 plain(SceneNumber::friction, "friction", "unchanged", coulomb)}},
       {.title = "Bullet's position-based links",
        .iterations = "piterations",
        .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::bullet_link; },
        .deaf = "demo",
        .source = "Bullet 3.24, btSoftBody::PSolve_Links",
        .rules = {mass_as_it_is(), step_damping("kDP"), link("kLST", Gather::each),
-                 plain(SceneNumber::dashpot, "c", "as it is, as forces added to the nodes at x_n, v_n"),
+                 plain(SceneNumber::dashpot, "c", "unchanged, as forces added to the nodes at x_n, v_n"),
                  plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction",
-                       "as Coulomb's cone only: a node sticks from tan(slope) on, below that it creeps")}},
+                       "only Coulomb's cone: a node sticks if friction is at least tan(slope), and creeps otherwise")}},
       {.title = "Bullet's explicit deformable world",
        .iterations = "",
        .of = [](const Method& m) { return m.family().role == Role::peer && !m.position_based && !m.implicit; },
@@ -239,7 +239,7 @@ std::vector<EngineNumbers> make_table() {
        .rules = {mass_as_it_is(), factor,
                  undragged(SceneNumber::stiffness, "stiffness", "k / (1 - h gamma)", "k = value (1 - h gamma)",
                            "h below the critical step, 2 / omega without drag"),
-                 plain(SceneNumber::dashpot, "c", "as it is, solved implicitly after the step"),
+                 plain(SceneNumber::dashpot, "c", "unchanged, solved implicitly after the step"),
                  undragged(SceneNumber::gravity, "gravity", "g / (1 - h gamma)", "g = value (1 - h gamma)", always),
                  plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction", coulomb)}},
       {.name = "jolt",
@@ -251,10 +251,10 @@ std::vector<EngineNumbers> make_table() {
        .source = "Jolt, SoftBodyMotionProperties::ApplyEdgeConstraints and IntegratePositions",
        .rules = {inverse_mass, jolt_damping,
                  compliance("mCompliance",
-                            "1 / k; in a sub-step of h / n compliance n^2 / h^2 beside the inverse masses"),
+                            "1 / k; a sub-step of h / n adds compliance n^2 / h^2 to the inverse masses"),
                  nothing(SceneNumber::dashpot, stays),
-                 plain(SceneNumber::friction, "mFriction",
-                       "mu on body and ball, of which Jolt takes the geometric mean", coulomb)}},
+                 plain(SceneNumber::friction, "mFriction", "mu on body and ball; Jolt uses their geometric mean",
+                       coulomb)}},
       {.name = "rapier",
        .title = "Rapier's soft bodies",
        .iterations = "numSolverIterations",
@@ -263,7 +263,7 @@ std::vector<EngineNumbers> make_table() {
        .single_precision = true,
        .source = "Rapier 0.21, soft body edges",
        .rules = {mass_as_it_is(), dividing_damping("linearDamping"), frequency("naturalFrequency"),
-                 damping_ratio("dampingRatio"), plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+                 damping_ratio("dampingRatio"), plain(SceneNumber::friction, "friction", "unchanged", coulomb)}},
       {.name = "box3d",
        .title = "Box3D's distance joints",
        .iterations = "subStepCount",
@@ -272,16 +272,16 @@ std::vector<EngineNumbers> make_table() {
        .single_precision = true,
        .source = "Box3D v0.1, distance joint",
        .rules = {mass_as_it_is(), dividing_damping("linearDamping"), frequency("hertz"), damping_ratio("dampingRatio"),
-                 plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+                 plain(SceneNumber::friction, "friction", "unchanged", coulomb)}},
       {.name = "mujoco",
        .title = "MuJoCo's tendons",
        .source = "MuJoCo, spatial tendons",
        .rules = {mass_as_it_is(),
                  plain(SceneNumber::drag, "damping_per_mass",
-                       "as it is: each slide joint's damping is gamma m, implicit unless eulerdamp is disabled"),
-                 plain(SceneNumber::stiffness, "stiffness", "as it is, of a spatial tendon with springlength"),
-                 plain(SceneNumber::dashpot, "damping", "as it is, of the same tendon"),
-                 plain(SceneNumber::friction, "friction", "as it is",
+                       "unchanged: each slide joint's damping is gamma m, implicit unless eulerdamp is disabled"),
+                 plain(SceneNumber::stiffness, "stiffness", "unchanged, of a spatial tendon with springlength"),
+                 plain(SceneNumber::dashpot, "damping", "unchanged, of the same tendon"),
+                 plain(SceneNumber::friction, "friction", "unchanged",
                        "as a soft constraint, with an elliptic or pyramidal cone")}},
       {.name = "godot",
        .title = "GodotPhysics' SoftBody3D",
@@ -314,7 +314,7 @@ std::optional<int> iterations_in(const std::string& option) {
 
 std::string with_iterations(std::string name, int said, int wanted) {
   if (wanted == 0 || said == wanted) return name;
-  if (said != 0) throw InputError(fmt::format("--iterations {}: {} says otherwise", wanted, name));
+  if (said != 0) throw InputError(fmt::format("--iterations {} contradicts {}", wanted, name));
   return fmt::format("{}+n={}", name, wanted);
 }
 
@@ -356,7 +356,7 @@ TranslationTarget find_target(const std::string& name, int iterations) {
       continue;
     if (iterations > 0 && engine.iterations.empty())
       throw InputError(
-          fmt::format("--iterations: {} has none to choose: it takes one pass in a step; give --step", method.name));
+          fmt::format("--iterations: {} always takes one pass per step; choose --step instead", method.name));
     if (const std::string full = with_iterations(name, said, iterations); full != name) method = find_method(full);
     const bool single = method.family().single_precision || engine.single_precision;
     const int n = std::max({1, said, iterations});
@@ -364,8 +364,7 @@ TranslationTarget find_target(const std::string& name, int iterations) {
     return {std::move(full_name), &engine, n, said + iterations > 0, single, std::move(method)};
   }
   throw InputError(fmt::format(
-      "{}: its numbers are not known; expected a method of mysim or of Bullet that takes the scene's stiffness, or one "
-      "of: {}",
+      "{}: no known parameters; expected a method of mysim or Bullet that uses the scene's stiffness, or one of: {}",
       method.name, fmt::join(engines, ", ")));
 }
 

@@ -34,8 +34,8 @@ std::string toml_numbers(const std::vector<double>& values) {
 std::string numbers_toml(const Scene& scene, const Translation& t) {
   const EngineNumbers& engine = *t.target.numbers;
   std::string text = fmt::format(
-      "# The scene {} in the numbers of {}: {}.\n# A list follows the scene's order of springs or particles, pins left "
-      "out.\nmethod = \"{}\"\nstep = {}  # s\n",
+      "# The scene {} in the parameters of {}: {}.\n# A list follows the scene's order of springs or particles, "
+      "without pins.\nmethod = \"{}\"\nstep = {}  # s\n",
       scene.name, t.target.name, engine.title, t.target.name, toml_number(t.h));
   if (!engine.iterations.empty())
     text += fmt::format("iterations = {}  # {}\n", t.target.iterations, engine.iterations);
@@ -55,25 +55,23 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
   if (file.has("method")) {
     const std::string method = file.text("method");
     if (find_target(method, 0).numbers != &engine)
-      file.fail("method", fmt::format("the numbers of {}, got those of {}", target.name, method));
+      file.fail("method", fmt::format("parameters of {}, got those of {}", target.name, method));
   }
   if (file.has("step") && step == 0) numbers.h = file.positive("step");
   if (!(numbers.h > 0)) file.fail("step", "the engine's time step (s), here or as --step");
   if (file.has("iterations")) {
     const int n = file.count("iterations", 1000);
     if (engine.iterations.empty() && n != 1)
-      file.fail("iterations", fmt::format("1 or nothing: {} takes one pass in a step", target.name));
+      file.fail("iterations", fmt::format("1 or no such key: {} takes one pass per step", target.name));
     if (!target.iterations_given) numbers.iterations = n;
   }
   for (const NumberRule& rule : engine.rules) {
     if (!rule.to || !file.has(rule.name)) continue;
     const int count = static_cast<int>(values_of(scene, rule.quantity).size());
-    if (count == 0)
-      file.fail(rule.name,
-                fmt::format("none: the scene has no {}, so that nothing can have it", name_of(rule.quantity)));
+    if (count == 0) file.fail(rule.name, fmt::format("no such key: the scene has no {}", name_of(rule.quantity)));
     const bool one = rule.gather != NumberRule::Gather::each;
     const bool list = document.has(fmt::format("{}[0]", rule.name));
-    if (list && one) file.fail(rule.name, fmt::format("one number for the whole body, {}", rule.unit));
+    if (list && one) file.fail(rule.name, fmt::format("one number for the whole body ({})", rule.unit));
     const Eigen::VectorXd read =
         list ? file.numbers(rule.name, count) : Eigen::VectorXd::Constant(1, file.number(rule.name));
     for (Eigen::Index i = 0; i < read.size(); ++i) {
@@ -91,8 +89,8 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
     std::vector<std::string_view> names;
     for (const NumberRule& rule : engine.rules)
       if (rule.to) names.push_back(rule.name);
-    throw InputError(
-        fmt::format("{}: expected at least one of {}: the numbers of {}", name, fmt::join(names, ", "), target.name));
+    throw InputError(fmt::format("{}: expected at least one of {}, the parameters of {}", name, fmt::join(names, ", "),
+                                 target.name));
   }
   return numbers;
 }
@@ -110,10 +108,10 @@ class SceneFile {
       const auto first = std::ranges::find(values, path, &std::pair<std::string, double>::first);
       if (first != values.begin() + static_cast<std::ptrdiff_t>(i)) {
         if (!(std::abs(value - first->second) <= within_ * std::abs(value)))
-          throw InputError(fmt::format(
-              "{}: {}: expected one number for all that it is of, got {:.6g} and {:.6g}: --out cannot write "
-              "it; list these one by one in the scene",
-              scene_.name, path, first->second, value));
+          throw InputError(
+              fmt::format("{}: {}: expected a common value, got {:.6g} and {:.6g}, which --out cannot "
+                          "write; list the elements one by one in the scene",
+                          scene_.name, path, first->second, value));
         continue;
       }
       file_.set(path, value);
@@ -139,8 +137,8 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
   };
   if (!same(SceneNumber::gravity))
     throw InputError(fmt::format(
-        "{}: gravity.acceleration: the numbers stand for {:.6g} m/s^2, the scene has {:.6g}; "
-        "change it there first",
+        "{}: gravity.acceleration: the parameters correspond to {:.6g} m/s^2, but the scene has {:.6g}; "
+        "change the scene first",
         source.name, values_of(changed, SceneNumber::gravity)[0], values_of(source, SceneNumber::gravity)[0]));
   const Particles& particles = changed.model.particles;
   int single = 0;

@@ -216,7 +216,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
   }
   if (which < 0) return "";
   return fmt::format(
-      "it led the pinned particle {} away from where it is prescribed: {:.3g} m at t = {:.4g} s, where "
+      "it moved the pinned particle {} off its prescribed path: by {:.3g} m at t = {:.4g} s, where "
       "rounding explains {:.2g} m",
       which, worst, when, allowed);
 }
@@ -252,12 +252,12 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
   if (end.signal == 0 && end.status == 3) {
     const std::string last_stderr_line = last_line(end.err),
                       why = last_stderr_line.empty() ? last_line(end.out) : last_stderr_line;
-    throw Unsupported(why.empty() ? "the program says so (exit status 3) and gives no reason" : why);
+    throw Unsupported(why.empty() ? "the program refused the scene (exit status 3) without a reason" : why);
   }
   if (end.killed_watcher)
     return failed(out, Verdict::crash,
-                  "killed the process that watches over it, and what it left behind may go on: this kernel allows no "
-                  "pid namespace to contain it",
+                  "killed its supervising process; its remaining processes may still run, because this kernel permits "
+                  "no pid namespace",
                   end);
   if (end.signal != 0 || end.status != 0) return failed(out, Verdict::crash, exit_text(end), end);
 
@@ -270,24 +270,24 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     Outcome none;
     none.step = grid.h;
     none.process_seconds = end.cpu_seconds;
-    return failed(none, Verdict::crash, "did not deliver: " + what, end);
+    return failed(none, Verdict::crash, "gave no valid answer: " + what, end);
   }
   if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // excludes start-up cost
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out, per_sample);
-  if (reported != Verdict::ok && out.reason.empty()) out.reason = "by the program's own word";
+  if (reported != Verdict::ok && out.reason.empty()) out.reason = "reported by the program without a reason";
 
   auto remark = [&](const std::string& what) { out.remark += (out.remark.empty() ? "" : "; ") + what; };
   if (const std::string last_stderr_line = last_line(end.err); !last_stderr_line.empty())
-    remark("it wrote on stderr, last: " + last_stderr_line);
+    remark("last line of its stderr: " + last_stderr_line);
   if (!misled.empty()) remark(misled);
   if (end.left_children) remark("it left a process behind, which was killed");
   const double rounding = out.readback && out.readback->precision == "single" ? 0x1p-23 : 1e-12;
   if (std::abs(out.step - grid.h) <= rounding * grid.h)
     out.step = grid.h;
   else if (!out.adaptive)
-    remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, grid.h));
+    remark(fmt::format("it used a step of {:.6g} s instead of {:.6g} s", out.step, grid.h));
   return out;
 }
 

@@ -313,7 +313,7 @@ Term term_of(const JsonField& f, const Scene& scene) {
   const std::string type = f["type"].text();
   for (const TermReader& reader : term_readers)
     if (reader.type == type) return reader.read(f, scene);
-  throw Unsupported(fmt::format("there is no term {} here", type));
+  throw Unsupported(fmt::format("unknown term {}", type));
 }
 
 void read_particles(const JsonField& file, bool first_order, Scene& scene) {

@@ -139,7 +139,7 @@ Truth empty_truth(const DiscreteStepper& rule, double h) {
 
 Truth rotation_truth(const DiscreteStepper& rule, const Scene& scene, const TimeGrid& steps, double rate) {
   if (!rule.of_system)
-    throw Unsupported("the scene is a first-order system x' = f(x, t), and this rule needs positions and velocities");
+    throw Unsupported("the scene is a first-order system x' = f(x, t), but this rule needs positions and velocities");
   Truth truth = empty_truth(rule, steps.h);
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   a(0, 1) = -rate, a(1, 0) = rate;
@@ -170,8 +170,8 @@ Truth discrete_truth(const DiscreteStepper& rule, const Scene& scene, const Run&
   const TimeGrid steps = time_grid(run);
   if (const auto* rotation = model.find<Rotation>()) return rotation_truth(rule, scene, steps, rotation->rate);
   const auto linear = linear_scene(scene);
-  if (!linear) throw Unsupported("the scene is not linear: a rule has a closed form only if it multiplies by a matrix");
-  if (model.particles.move) throw Unsupported("the pins are moved: closed forms of rules are for pins at rest");
+  if (!linear) throw Unsupported("the scene is not linear: closed forms require a step that is a matrix product");
+  if (model.particles.move) throw Unsupported("the pins move, but closed forms of rules require pins at rest");
   const auto* springs = model.find<Springs>();
   const auto* dashpots = model.find<Dashpots>();
   if (rule.one_spring && ((springs && springs->list.size() > 1) || (dashpots && dashpots->list.size() > 1)))

@@ -223,7 +223,7 @@ std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const R
   // error of a step, relative to the scene's size; round-off is at 1e-16
   return refine_tolerance(
       scene, run, few_particles(scene) ? 1e-11 : 1e-8,
-      fmt::format("odeint (Boost {}), Bulirsch and Stoer's extrapolation, on a right-hand side written apart",
+      fmt::format("odeint (Boost {}), Bulirsch-Stoer extrapolation, with an independently written right-hand side",
                   odeint_version()),
       run_odeint_bulirsch_stoer);
 }
@@ -244,7 +244,7 @@ std::optional<Truth> ended_after(size_t samples, Truth truth) {
 /// error exceeds `most` (m) or a hundredth of the motion.
 std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
                                      const RefinementStudy& other, double most = INFINITY) {
-  Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
+  Truth truth{Tier::converged, fmt::format("{}, compared with {}", one.how, other.how), one.fine, 0};
   const auto& x = truth.trajectory.x;
   ErrorOfTwoRoutes of_place(one, other), of_contact(one, other, apart_in_contact);
   const bool contact_known = !one.fine.contact.empty() && !other.fine.contact.empty();
@@ -344,7 +344,7 @@ namespace {
 /// first sample after the start.
 std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run) {
   RefinementStudy study{
-      fmt::format("odeint (Boost {}), Dormand and Prince's pair cut at every event, on equations written apart",
+      fmt::format("odeint (Boost {}), Dormand-Prince 5(4) restarted at events, with independently written equations",
                   odeint_version()),
       scene.step,
       10,
@@ -453,7 +453,7 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   const double largest_bar = scene.tolerance / 3;
   const Run part = known_part(*events, seen, largest_bar);
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};
-  stepping.how = fmt::format("Moreau's time stepping at {:.3g} ms on equations written apart", 1e3 * stepping.step);
+  stepping.how = fmt::format("Moreau's time stepping at {:.3g} ms, independently written", 1e3 * stepping.step);
   double h = 4 * stepping.step;
   for (RoutePath* path : {&stepping.coarse, &stepping.middle, &stepping.fine}) {
     Recorder recorder;
@@ -508,8 +508,8 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
   truth.trajectory.x.resize(truth.error_bars.size());
   truth.trajectory.v.resize(truth.error_bars.size());
   truth.how = fmt::format(
-      "mysim/leapfrog at {:.3g} ms, converged in the step (to order {:.2g} at least) under the in-house contact rule; "
-      "other rules differ",
+      "mysim/leapfrog at {:.3g} ms, converged in the step (to order {:.2g} at least) under mysim's contact rule; "
+      "other contact rules differ",
       1e3 * h, std::log2(least));
   return truth;
 }

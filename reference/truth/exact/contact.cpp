@@ -34,7 +34,7 @@ std::optional<ExactSolution> held_by_friction(const Scene& scene) {
     const double pressing = -a->dot(n), along = (*a + pressing * n).norm();
     if (!(along < under->friction * pressing || (along == 0 && pressing > 0))) return std::nullopt;
   }
-  return ExactSolution{"friction holds every particle: it stays", [start = scene.start](double t) {
+  return ExactSolution{"friction holds every particle at rest", [start = scene.start](double t) {
                          State s = start;
                          s.t = t;
                          return s;
@@ -94,7 +94,7 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
     if (!below) return std::nullopt;
     falling_particles.push_back({{std::max(0.0, gap), v.dot(up)}, below->restitution});
   }
-  return ExactSolution{"parabolas between impacts that return the restitution's part of the speed",
+  return ExactSolution{"parabolas between impacts with the given coefficient of restitution",
                        [start = scene.start, up, g, falling_particles](double t) {
                          State s = start;
                          s.t = t;
@@ -346,7 +346,7 @@ std::optional<ExactSolution> slide_over_ball(const Scene& scene) {
 
   const Vec3 side = std::sin(theta0) * n + std::cos(theta0) * forward;
   return ExactSolution{
-      "Coulomb friction on a ball: speed by the angle in closed form, then free flight",
+      "Coulomb friction on a ball: speed as a function of the angle in closed form, then free flight",
       [start = scene.start, slide, centre = ball.centre, a = gravity->acceleration, radius, up, side](double t) {
         const double on = std::min(t, slide.departure_time()), off = t - on;
         const double theta = slide.theta(on), rate = std::sqrt(slide.u(theta));

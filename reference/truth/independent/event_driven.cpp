@@ -124,8 +124,7 @@ class EventDrivenWorld : public World {
       if (!(after < 0)) {
         t = last ? t_next : now;
       } else {
-        if (++events > most_events_in_interval)
-          throw SolverFailure(fmt::format("impacts without end at t = {:.4g} s", t));
+        if (++events > most_events_in_interval) throw SolverFailure(fmt::format("endless impacts at t = {:.4g} s", t));
         // shorten the step until it ends at the event
         const auto margin = [&](double part) {
           y_ = advanced(before, t, part);
@@ -354,7 +353,7 @@ class EventDrivenWorld : public World {
     if (pressing.size() > 1) {
       const bool still = !balls_[pressing[0]].moves() && !balls_[pressing[1]].moves();
       if (!still || !is_wedged(i, pressing[0], pressing[1]) || pressing.size() > 2)
-        throw Unsupported("a particle moves between two surfaces: this route supports only rest there");
+        throw Unsupported("a particle moves between two surfaces: this solver supports only rest there");
       p.mode = Mode::wedged, p.ball = pressing[0], p.other = pressing[1];
       put_speed(y_, i, Vec3::Zero());
       return;

@@ -68,7 +68,7 @@ void Solid::move_to(double t) {
 }
 
 std::vector<Solid> solids_of(const Scene& scene) {
-  if (scene.model.find<Constraints>()) throw Unsupported("this route does not support hard distances");
+  if (scene.model.find<Constraints>()) throw Unsupported("this solver does not support hard distances");
   std::vector<Solid> solids;
   if (const auto* spheres = scene.model.find<Spheres>())
     for (const Sphere& s : spheres->list) {
@@ -85,7 +85,7 @@ std::vector<Solid> solids_of(const Scene& scene) {
                         .restitution = p.restitution,
                         .size = scene.size(),
                         .drift = p.velocity.value_or(Vec3::Zero())});
-  if (solids.empty()) throw Unsupported("the scene has no contact: there are no events in it");
+  if (solids.empty()) throw Unsupported("the scene has no contact and therefore no events");
   return solids;
 }
 
@@ -167,7 +167,7 @@ void RightHandSide::add_term(const Term& term) {
     void operator()(const Spheres&) const { refuse_contact(); }
     void operator()(const Planes&) const { refuse_contact(); }
     [[noreturn]] static void refuse_contact() {
-      throw Unsupported("the scene has contact, which is not a right-hand side: library integrators cannot follow it");
+      throw Unsupported("the scene has contact, which is no right-hand side: library integrators cannot run it");
     }
   };
   std::visit(TermVisitor{*this}, term);

@@ -170,7 +170,7 @@ TEST(BulletSpheres, WhatABodyOfBulletCannotHaveIsRefused) {
       EXPECT_EQ(out.verdict, Verdict::unsupported);
       return out.reason;
     };
-    EXPECT_TRUE(contains(refusal(two_balls("0.03")), "one margin, the scene's surfaces have several"));
+    EXPECT_TRUE(contains(refusal(two_balls("0.03")), "single margin, but the scene's surfaces have several"));
     EXPECT_TRUE(contains(refusal(bouncing), "no restitution"));
     EXPECT_TRUE(contains(refusal(pieces), "hangs on a body whose springs do not join all particles"));
     EXPECT_EQ(run_and_record(method, two_balls(), {1e-3, 2e-3, 1}).outcome.verdict, Verdict::ok);

@@ -25,7 +25,7 @@ TEST(ContactTruth, FollowsADrapeFor300MillisecondsAndAFinerRunLiesWithinTheBar) 
   EXPECT_NEAR(truth->until, scene.window, 1e-9);  // the window ends 0.3 s after the first touch
   EXPECT_EQ(truth->trajectory.t.back(), truth->until);
   EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
-  EXPECT_TRUE(contains(truth->how, "under the in-house contact rule; other rules differ"));
+  EXPECT_TRUE(contains(truth->how, "under mysim's contact rule; other contact rules differ"));
   EXPECT_LT(truth->error_bar, 1e-4);  // a fifth of the scene's tolerance
   const Trajectory finer =
       trajectory_of(stepper("leapfrog"), scene, {scene.step / 64, truth->until, truth->trajectory.frames() - 1});

@@ -118,7 +118,7 @@ TEST_F(Exec, EachMisbehaviourIsAVerdictWithAClearLine) {
        "", Verdict::solver, "no root"},
       {"lacks something", "echo ' warning'\necho 'no springs here' >&2\nexit 3\n", "", Verdict::unsupported,
        "no springs here"},
-      {"lacks something in silence", "exit 3\n", "", Verdict::unsupported, "gives no reason"},
+      {"lacks something in silence", "exit 3\n", "", Verdict::unsupported, "without a reason"},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.what);
@@ -136,7 +136,7 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
       "done\nprintf 'bell \\007 and \\377 byte\\n\\n' >&2\n";
   const MethodRun a = run(noise + deliver("x.npy"));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
-  EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell ? and ? byte");
+  EXPECT_EQ(a.outcome.remark, "last line of its stderr: bell ? and ? byte");
   EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout gives no remark";
 }
 
@@ -184,7 +184,7 @@ TEST_F(Exec, AProgramThatKillsItsParentHarmsNobody) {
   if (a.outcome.verdict == Verdict::ok)
     EXPECT_EQ(a.trajectory.frames(), 5);
   else
-    EXPECT_TRUE(contains(a.outcome.reason, "killed the process that watches over it"));
+    EXPECT_TRUE(contains(a.outcome.reason, "killed its supervising process"));
 }
 
 TEST_F(Exec, AHugeRunJsonIsRefusedByItsSize) {
@@ -210,7 +210,7 @@ TEST_F(Exec, APinThatIsLedAwayIsTold) {
     double off;
     std::string remark;
   } cases[] = {{1e-7, ""},  // allowed rounding in single precision: sixteen half ulps of 3 m, which are 3e-6 m
-               {1e-3, "it led the pinned particle 0 away from where it is prescribed: 0.001 m at t = 0.002 s"}};
+               {1e-3, "it moved the pinned particle 0 off its prescribed path: by 0.001 m at t = 0.002 s"}};
   for (const auto& [off, remark] : cases) {
     auto x = right.x;
     x[2](2, 0) += off;

@@ -143,8 +143,8 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"suzuki4+events", "expected +events with leapfrog or implicit-midpoint only"},
       {"trapezoidal+events", "expected +events with leapfrog or implicit-midpoint only"},
       {"dopri5+events", "expected +events with leapfrog or implicit-midpoint only"},
-      {"leapfrog+events+single", "locates contact in double precision; expected it without +single"},
-      {"leapfrog+single+events", "locates contact in double precision; expected it without +single"},
+      {"leapfrog+events+single", "+events requires double precision; expected no +single"},
+      {"leapfrog+single+events", "+events requires double precision; expected no +single"},
       {"leapfrog+single+plain",
        "method mysim/leapfrog: +single and +plain each choose how a step is computed; expected one of them"},
       {"suzuki4+fast+single", "+fast and +single each choose how a step is computed; expected one of them"},
@@ -162,10 +162,10 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"bullet/deformable-explicit+n=2",
        "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin, "
        "+default-sleep, +voxel=0.0001 to +voxel=1 (m), +gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to "
-       "+kLST=1e6, +bodies alone, +in-pieces (in a process of its own) or none"},
+       "+kLST=1e6, +bodies alone, +in-pieces (in a separate process) or none"},
       {"bullet/deformable-explicit+in-pieces",
-       "method bullet/deformable-explicit: +in-pieces may hang and has no time limit here; expected it in a process of "
-       "its own: bullet32/deformable-explicit+in-pieces+timeout=SECONDS, or exec:"},
+       "method bullet/deformable-explicit: +in-pieces may hang and has no time limit here; expected a separate "
+       "process: bullet32/deformable-explicit+in-pieces+timeout=SECONDS, or exec:"},
       {"bullet/deformable-explicit+bodies+default-rest", "unknown option '+bodies'; expected +bodies without other"},
       {"bullet/deformable-explicit+timeout=1", "unknown option '+timeout=1'"},
       {"bullet32/pbd+timeout=0", "method bullet32/pbd: timeout: expected seconds above zero, got '0'"},
@@ -189,7 +189,7 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"bullet/pbd+n", "'+n'"},
       {"bullet/pbd+m=2", "'+m=2'"},
       {"truth/exact-discrete",
-       "method truth/exact-discrete: no rule; expected one of the rules +explicit-euler, +trap"},
+       "method truth/exact-discrete: the rule is missing; expected one of the rules +explicit-euler, +trap"},
       {"truth/exact-discrete+dopri5", "unknown option '+dopri5'; expected one of the rules +explicit-euler, "},
       {"truth/exact-discrete+rk4=2", "unknown option '+rk4=2'; expected one of the rules +explicit-euler, "},
       {"truth/exact-discrete+rk4+linear", "unknown option '+linear'; expected one of the rules +explicit-euler, "},

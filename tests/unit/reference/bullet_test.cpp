@@ -180,7 +180,7 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
       EXPECT_TRUE(contains(out.reason, c.reason));
     }
   const std::pair<std::string, std::string> options[] = {
-      {"bullet/deformable-implicit+shipped", "Hooke's law and two stiffnesses at most"},
+      {"bullet/deformable-implicit+shipped", "Hooke's law and at most two stiffnesses"},
       {"bullet/pbd+own-wind", "presses on triangles: the scene has none"}};
   for (const auto& [method, reason] : options) {
     const Outcome out = run_and_record(method, small_cloth(), {1e-3, 2e-3, 1}).outcome;

@@ -106,7 +106,7 @@ TEST_F(SceneJson, RefusesWhatIsBrokenAndNamesThePlace) {
     read_scene_json(write("scene.json", later));
     ADD_FAILURE() << "expected an error";
   } catch (const Unsupported& lack) {
-    EXPECT_STREQ(lack.what(), "there is no term magnet here");
+    EXPECT_STREQ(lack.what(), "unknown term magnet");
   }
 }
 

@@ -88,8 +88,8 @@ TEST_F(CliTranslate, RefusalsNameWhatWasExpected) {
   expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml"}, 2, {"bad.toml:2: kLST: expected", "got 1.5"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "none.toml"}, 2, {"none.toml", "an engine's numbers"});
   expect({"translate", "own.toml", "--to", "odeint/rk4"}, 2,
-         {"its numbers are not known", "jolt, rapier, box3d, mujoco, godot"});
-  expect({"translate", "own.toml", "--to", "rk4", "--iterations", "3"}, 2, {"mysim/rk4 has none to choose"});
+         {"no known parameters", "jolt, rapier, box3d, mujoco, godot"});
+  expect({"translate", "own.toml", "--to", "rk4", "--iterations", "3"}, 2, {"mysim/rk4 always takes one pass"});
   expect({"translate", "chian", "--to", "jolt"}, 2, {"did you mean 'chain'?"});
   // a scene that has nothing to translate, and a world that does not support the scene
   expect({"translate", "circle", "--to", "bullet/pbd"}, 1, {"has no numbers for circle", "first-order"});
