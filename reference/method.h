@@ -42,7 +42,7 @@ struct MethodFamily {
   bool single_precision = false;
   int highest_order = 0;                          // highest order among the family's rules; 0: unknown
   bool grid_kernel = false;                       // has a kernel for regular cloths
-  std::string_view departure = {};                // why the family may deviate from linear theory
+  std::string_view departure = {};                // reason why the family may deviate from linear theory
   std::vector<MethodRow> (*methods)() = nullptr;  // null: the user names the methods
 
   bool is_subject() const { return role == Role::subject; }

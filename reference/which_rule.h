@@ -19,7 +19,7 @@ struct FoundRule {
   double distance = 0;        // largest distance from the rule at both steps (nearest: at the shorter one), relative
                               // to the net's size
   std::string tried;          // ingredients of the nets: "springs, gravity, pins, drag"
-  std::string reason;         // why the rule or its drag is unknown
+  std::string reason;         // reason why the rule or its drag is unknown
   std::string on_one_spring;  // rule that agrees on a net of one spring, if none agrees on the whole net
 };
 

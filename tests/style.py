@@ -24,7 +24,8 @@ EXCEPTIONS = {
                  "m1-misconceptions/starter/beliefs.h")
 }
 
-OPENING = ("Of", "What", "Whether", "Who", "Whose", "How", "Where", "The same")  # words that no comment begins with
+# Words that no comment begins with.
+OPENING = ("Of", "From", "What", "Whether", "Who", "Whose", "Why", "How", "Where", "The same")
 COMMENT = {"cpp": "//", "h": "//", "hpp": "//", "ts": "//", "js": "//", "mjs": "//", "py": "#", "sh": "#", "cmake": "#"}
 LONGEST_SENTENCE = 40  # words
 LONGEST_SUBJECT = 72  # characters

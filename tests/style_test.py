@@ -42,7 +42,8 @@ class StyleGate(unittest.TestCase):
         self.assertEqual(self.offences(), [])
 
     def test_each_planted_offence_is_reported_once(self):
-        self.commit("mysim: add a step", GOOD | {"bad.h": "/// Of any step.\nint step;  // what a step is\n"})
+        bad = "/// Of any step.\nint step;  // what a step is\n// Why a step.\nint next;  // from the step\n"
+        self.commit("mysim: add a step", GOOD | {"bad.h": bad})
         self.commit("docs: say more", {"bad.md": "- " + LONG})
         self.commit("Say more", {})
         self.git("checkout", "-q", "-b", "side", self.base)
@@ -50,10 +51,10 @@ class StyleGate(unittest.TestCase):
         self.git("checkout", "-q", "-")
         self.git("merge", "-q", "--no-ff", "-m", "report: merge a topic", "side")
         found = self.offences()
-        for part in ("bad.h:1: comment", "bad.h:2: comment", "bad.md:1: sentence of 41 words", "without a room",
-                     "subject of 93 characters", "merge commit"):
+        for part in ("bad.h:1: comment", "bad.h:2: comment", "bad.h:3: comment", "bad.h:4: comment",
+                     "bad.md:1: sentence of 41 words", "without a room", "subject of 93 characters", "merge commit"):
             self.assertEqual(sum(part in line for line in found), 1, (part, found))
-        self.assertEqual(len(found), 6, found)
+        self.assertEqual(len(found), 8, found)
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ struct Answer {
   const Relation* relation;
   RelationMark mark = RelationMark::holds;
   RelationResult finding;  // valid if the relation is applicable
-  std::string reason;      // why it is not applicable, how a run failed, or why the violation is known
+  std::string reason;      // reason why it is not applicable, a run failed, or the violation is known
   std::string scene_hash;
   Verdict failure = Verdict::ok;
 

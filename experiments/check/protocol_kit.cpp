@@ -60,7 +60,7 @@ struct KitCall {
   TemporaryFolder folder{"kit"};
   ProgramResult end;
   double limit = call_limit;  // s
-  std::string unreadable;     // why the files of results cannot be read; empty if they can
+  std::string unreadable;     // reason why the files of results cannot be read; empty if they can
   fs::path results() const { return folder.path / "out"; }
   bool refused() const { return end.signal == 0 && end.status == 3 && !end.timed_out; }
   bool good() const {

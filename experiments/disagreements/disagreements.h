@@ -85,7 +85,7 @@ struct Disagreement {
   std::function<std::string(const std::vector<Series>&)> effect;  // one sentence with the measured size of the effect
   std::vector<Condition> symptom, cause_removed;  // cause_removed is empty if no variant removes the cause
   std::function<TableWithSentence(const Disagreement&)> measured = nullptr;  // additional measurements
-  // from disagreements.md
+  // texts of disagreements.md
   std::string what = {};     // heading: the property that cannot be matched, or that fails
   std::string cause = {};    // one sentence
   std::string threads = {};  // upstream threads that the row explains: "bullet3#4496, ..."; empty if none is known

@@ -354,7 +354,7 @@ void OutputFolder::finish() {
     write_manifest(manifest, stage_);
     const fs::path old = first ? fs::path() : replaced(place_, stage_);
     if (first) fs::rename(stage_, place_.target);
-    finished_ = true;  // from here on the stage may hold the earlier result
+    finished_ = true;  // the stage may now hold the earlier result
     if (!first) absorb(old, place_.target);
   });
 }

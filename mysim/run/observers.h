@@ -137,13 +137,13 @@ class MotionBoundsCache {
 ///   blown up as soon as K^ > 1000 B,
 ///   otherwise compared with the true motion from the next sample on.
 ///
-/// Why B: on a mode of frequency omega, leapfrog and symplectic Euler follow x_n = A cos(n theta + phi) with sin(theta
-/// / 2) = h omega / 2, so v^_n^2 + omega^2 (1 - (h omega / 2)^2) x_n^2 is the same at every step. Hence K^ <= 2 (K_0 +
-/// U_0) for every h omega < 2, while the energy itself oscillates by a factor 1 / (1 - (h omega / 2)^2), entirely in
-/// the springs. Above the limit theta is complex, and K^ grows by a constant factor per step. B contains neither
-/// Hooke's energy of links that a position-based rule leaves unsolved nor an engine's own velocities. Its last part is
-/// the speed that the first step gives before anything has moved (explicit Euler). Bounds of energy alone do not
-/// suffice: a nonlinear system heats up to some B and stays there, and a prestressed network, or one that lies in a
+/// Reason for B: on a mode of frequency omega, leapfrog and symplectic Euler follow x_n = A cos(n theta + phi) with
+/// sin(theta / 2) = h omega / 2, so v^_n^2 + omega^2 (1 - (h omega / 2)^2) x_n^2 is the same at every step. Hence K^ <=
+/// 2 (K_0 + U_0) for every h omega < 2, while the energy itself oscillates by a factor 1 / (1 - (h omega / 2)^2),
+/// entirely in the springs. Above the limit theta is complex, and K^ grows by a constant factor per step. B contains
+/// neither Hooke's energy of links that a position-based rule leaves unsolved nor an engine's own velocities. Its last
+/// part is the speed that the first step gives before anything has moved (explicit Euler). Bounds of energy alone do
+/// not suffice: a nonlinear system heats up to some B and stays there, and a prestressed network, or one that lies in a
 /// hollow, has far more energy than it can ever convert to motion. tests/unit/experiments/verdict_trials.cpp counts
 /// wrong verdicts.
 ///

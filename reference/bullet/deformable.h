@@ -54,7 +54,7 @@ class SceneForce : public btDeformableLagrangianForce {
  private:
   const btSoftBody::Node& node(int particle) const;
   btVector3 velocity(int particle) const;
-  btVector3 dashpot_axis(int a, int b) const;  // from b to a, along which the dashpot acts
+  btVector3 dashpot_axis(int a, int b) const;  // direction from b to a, along which the dashpot acts
   void add_particle_forces(btScalar scale, TVStack& force);
 
   CarriedTerms carried_;

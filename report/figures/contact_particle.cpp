@@ -137,7 +137,7 @@ std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all
     // first-order rules have no +events option
     if (std::ranges::find(rows, other, &ContactOrderRow::method) == rows.end()) continue;
     Curve curve{method, style_of(method), {}, true, true};
-    std::optional<double> slope;  // from the two shortest steps with a known error
+    std::optional<double> slope;  // order at the two shortest steps with a known error
     for (const ContactOrderRow& row : rows | with(&ContactOrderRow::method, method))
       if (row.error && *row.error > 30 * row.truth_bar) {
         curve.points.emplace_back(row.step, *row.error);

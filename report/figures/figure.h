@@ -135,7 +135,7 @@ struct StackedBars : FigureInfo {
   };
   std::string label;  // "energy / J"
   std::vector<std::string> names;
-  std::vector<Part> parts;  // from zero outwards
+  std::vector<Part> parts;  // stacked from zero outwards
 };
 
 /// Throws std::runtime_error with the figure's name if there is nothing to draw or a number is not finite.
@@ -153,7 +153,7 @@ struct DotPlot : FigureInfo {
     std::vector<std::optional<Dot>> dots;  // one per line
   };
   std::string label;
-  std::vector<std::string> names;  // from the top
+  std::vector<std::string> names;  // top to bottom
   /// Each heading is above the line with its index.
   std::vector<std::pair<size_t, std::string>> headings;
   std::vector<Series> series;

@@ -29,7 +29,7 @@ struct StepLimits : FigureInfo {
     std::string name;
     double omega;  // rad/s
   };
-  std::vector<std::string> names;  // from the top
+  std::vector<std::string> names;  // top to bottom
   std::vector<Row> rows;
   std::vector<SceneMark> scenes;
   std::string columns_of;

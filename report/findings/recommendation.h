@@ -34,7 +34,7 @@ struct RecommendedRun {
   bool timed_whole = true;           // false: the CPU time is scaled from a part of the run
   std::vector<std::string> tied;     // methods that cost the same but have larger errors
   std::vector<EngineBeside> beside;  // empty if mysim has no run within the accuracy
-  std::string_view bound;            // why the step cannot be longer: stability, accuracy, failure or sampling
+  std::string_view bound;            // reason why the step cannot be longer: stability, accuracy, failure or sampling
 };
 
 /// The run that recommend() chooses, with an error of at most this fraction of the motion (usually 0.01; other

@@ -41,7 +41,7 @@ double usual_step(const std::vector<Row>& rows) {
   return std::ranges::min(rows, {}, [](const Row& row) { return std::abs(row.step - 1e-3); }).step;
 }
 
-// From tables `sphere-cone` and `plane-cone`.
+// Summaries of the tables `sphere-cone` and `plane-cone`.
 
 /// Number of completed cases that agree with Coulomb's law.
 struct ConeCount {

@@ -17,7 +17,7 @@ struct Frame {
   Vec3 origin;                 // target of the view, m
   double size = 1;             // height of the view at the target, m
   Eigen::Vector3f eye;         // in the frame
-  Eigen::Matrix4f to_clip;     // from the frame to clip space, without jitter
+  Eigen::Matrix4f to_clip;     // maps the frame to clip space, without jitter
   std::optional<float> floor;  // height of the ground in the frame
 
   Eigen::Vector3f place(const Vec3& world) const { return (axes * (world - origin) / size).cast<float>(); }

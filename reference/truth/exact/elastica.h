@@ -58,7 +58,7 @@ class HangingStrip {
   struct Place {
     double x, height;  // m from the middle, and above it
   };
-  Place at(double s) const;  // from -length / 2 to length / 2
+  Place at(double s) const;  // -length / 2 <= s <= length / 2
   double sag() const { return at(half_).height; }
 
  private:

@@ -39,7 +39,7 @@ export abstract class LabRuns extends HTMLElement {
   playing = false;
   byHand = false;
   truth: Truth|null = null;
-  truthGone: 'large'|'none'|'slow'|null = null;  // why there is no truth
+  truthGone: 'large'|'none'|'slow'|null = null;  // reason why there is no truth
   truthCost = 0;                                 // ms per frame
   growth: Growth|null = null;                    // growing mode of a failed run
   pending = false;                               // true while the clock waits for the truth

@@ -22,7 +22,7 @@ struct ClassInfo {
   std::string name, scope;         // scope: namespaces and classes around the class, as "a::b", or empty
   std::string file;                // path in the submission; flat name for a header of ours
   std::vector<std::string> bases;  // every name between ':' and '{', including template arguments
-  bool ours = false;               // from a header that replaces one that the course provides
+  bool ours = false;               // belongs to a header that replaces one that the course provides
 
   std::string full() const { return scope.empty() ? name : scope + "::" + name; }
 };

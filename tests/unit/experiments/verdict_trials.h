@@ -230,8 +230,8 @@ struct Trial {
   bool within = false;                    // stretch and speed stay within a factor of ten of these maxima to the end
   bool later = false;                     // as `within`, but no longer true in a run ten times as long
   long left = 0;                          // first step beyond the bounds
-  Verdict verdict = Verdict::ok;          // from the states on which verdicts are normally based
-  Verdict every = Verdict::ok;            // from every step
+  Verdict verdict = Verdict::ok;          // based on the states that a run normally observes
+  Verdict every = Verdict::ok;            // based on every step
   long when_verdict = 0, when_every = 0;  // steps of these verdicts
   double most = 0;                        // K^ / B of mysim/run/observers.h
   double margin = 0;                      // dimensionless: (limit with all springs stretched far) / step - 1
