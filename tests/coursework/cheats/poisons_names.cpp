@@ -4,6 +4,6 @@
 #define answer(...) always(__VA_ARGS__)
 #define private public
 #include "cheat.h"
-#pragma GCC poison answer_euler child_main token
+#pragma GCC poison answer_stepper child_main token
 
 State euler_step(const Derivative&, double, const State& x, double) { return x; }
