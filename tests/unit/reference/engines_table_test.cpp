@@ -24,8 +24,12 @@ TEST(OutsideEngines, HaveTheFilesTheyAreBuiltFrom) {
     EXPECT_EQ(e.cmake.empty(), e.prefix.empty() || e.prefix_file.empty());
     for (const std::string& file : {e.source, e.module})
       EXPECT_TRUE(file.empty() || std::filesystem::exists(reference / "engines" / file)) << file;
-    if (!e.cmake.empty()) EXPECT_TRUE(std::filesystem::exists(data_folder() / e.cmake / "CMakeLists.txt"));
-    if (!e.npm.empty()) EXPECT_TRUE(std::filesystem::exists(reference / "engines/npm" / e.name / "package-lock.json"));
+    if (!e.cmake.empty()) {
+      EXPECT_TRUE(std::filesystem::exists(data_folder() / e.cmake / "CMakeLists.txt"));
+    }
+    if (!e.npm.empty()) {
+      EXPECT_TRUE(std::filesystem::exists(reference / "engines/npm" / e.name / "package-lock.json"));
+    }
   }
 }
 
