@@ -243,12 +243,12 @@ void FileMatcher::into(Submission& submission) const {
         for (const auto& [place, file] : own_includes(beside, path, content)) submission.files[file] = beside.at(file);
       };
       add_included(best.path, best.content);
+      // other sources in the same folder belong to the program, as the hand-out builds every source in its folder;
+      // modules of Python may also be in folders below
       const std::string folder = best.path.substr(0, best.path.rfind('/') + 1);
       for (const auto& [path, content] : beside)
-        if (wants_python() && path.starts_with(folder) && !is_backup(path)) submission.files[path] = content;
-      // other sources in the same folder belong to the program, as the hand-out builds every source in its folder
-      for (const auto& [path, content] : beside)
-        if (is_source(path) && !is_backup(path) && fs::path(path).parent_path() == fs::path(best.path).parent_path())
+        if (path.starts_with(folder) && !is_backup(path) &&
+            (wants_python() || (is_source(path) && path.find('/', folder.size()) == std::string::npos)))
           submission.files[path] = content, add_included(path, content);
     }
     for (const Found& other : found)
