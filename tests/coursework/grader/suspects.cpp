@@ -35,7 +35,7 @@ bool single_beside(const Case& what, const Answer& answer) {
 }
 
 /// True if there are wrong cases, and all of their wrong numbers are single-precision versions of the right ones.
-/// Features extracted from answers do not count, because they are not the student's own numbers.
+/// False if a feature extracted from an answer is wrong, because it is not the student's own number.
 bool all_single(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
@@ -47,7 +47,8 @@ bool all_single(const std::vector<TestRun>& of_part) {
   return any;
 }
 
-/// True if there are wrong cases, and the first wrong number of each is the right one without its fraction.
+/// True if there are wrong cases, and the first wrong number of each is the right one without its fraction. Features
+/// extracted from answers do not count, because they are not the student's own numbers.
 bool all_whole(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
