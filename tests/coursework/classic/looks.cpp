@@ -150,16 +150,18 @@ std::string law_shown(const Texts& own, const Springs& s) {
   return "";
 }
 
+/// Place of particle i: "(row, column)".
+std::string place_text(const Grid& grid, int i) {
+  return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
+}
+
 using Pairs = std::set<std::pair<int, int>>;
 
 /// Shows the first three pairs as "(row, column) - (row, column)", and the total number.
 std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, const Pairs& pairs) {
-  const auto place = [&](int i) {
-    return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
-  };
   std::vector<std::string> first;
   for (const auto& [a, b] : pairs)
-    if (first.size() < 3) first.push_back(place(a) + " - " + place(b));
+    if (first.size() < 3) first.push_back(place_text(grid, a) + " - " + place_text(grid, b));
   return pairs.empty() ? "" : own.fill(key, std::to_string(pairs.size()), listed(first, "; "));
 }
 
@@ -207,8 +209,7 @@ std::string pins_shown(const Texts& own, const Springs& s) {
   if (!grid) return "";
   std::vector<std::string> pins;
   for (int i = 0; i < s.particles; ++i)
-    if (s.anchors[static_cast<std::size_t>(i)])
-      pins.push_back("(" + std::to_string(grid->row(i)) + ", " + std::to_string(grid->column(i)) + ")");
+    if (s.anchors[static_cast<std::size_t>(i)]) pins.push_back(place_text(*grid, i));
   if (pins.size() > 6) pins.resize(6), pins.push_back("...");
   return own.fill("shown.pins", std::to_string(grid->rows), std::to_string(grid->columns), listed(pins));
 }
