@@ -1,7 +1,6 @@
 #include "experiments/check/check.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +9,11 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
+#include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 
 namespace crosscheck {
 namespace {
-
-bool glob_matches(const std::string& glob, const std::string& text) {
-  return fnmatch(glob.c_str(), text.c_str(), FNM_EXTMATCH) == 0;
-}
 
 const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule) {
   for (const KnownBreak& one : known)

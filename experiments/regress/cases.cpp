@@ -1,7 +1,6 @@
 #include "experiments/regress/cases.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "experiments/scenes/ingredients.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck {
 namespace {
@@ -90,8 +90,7 @@ double seconds(const Case& q) {
 bool selected_by_default(const std::string& method) { return family_of(method).is_engine(); }
 
 bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
-  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
-         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
+  return filter.empty() || glob_matches(filter, scene) || glob_matches(filter, scene + "/" + method);
 }
 
 std::vector<Case> cases(const Selection& selection) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <chrono>
@@ -216,7 +215,7 @@ std::set<std::string> tests_named(const Assignment& assignment, const std::vecto
     for (const Test& test : assignment.tests)
       for (const std::string name : {std::string(test.id), std::string(test.part)}) {
         names.push_back(name);
-        if (fnmatch(pattern.c_str(), name.c_str(), FNM_EXTMATCH) != 0) continue;
+        if (!crosscheck::glob_matches(pattern, name)) continue;
         tests.emplace(test.id);
         any = true;
       }
