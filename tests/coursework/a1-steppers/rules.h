@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "tests/coursework/check/case.h"
-
 namespace coursework::a1 {
 
 struct Node {

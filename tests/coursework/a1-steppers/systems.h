@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/coursework/a1-steppers/rules.h"
+#include "tests/coursework/check/case.h"
 #include "tests/coursework/check/random.h"
 
 namespace coursework::a1 {

@@ -1,8 +1,6 @@
 // Tests of gravity, drag and one spring.
 #pragma once
 
-#include <algorithm>
-
 #include "tests/coursework/a2-pendulum/energy.h"
 
 namespace coursework::a2 {

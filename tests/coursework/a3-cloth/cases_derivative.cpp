@@ -1,5 +1,4 @@
 // Part 5: the complete right-hand side and its consequences.
-#include <cmath>
 
 #include "mysim/steppers/steppers.h"
 #include "tests/coursework/a3-cloth/cases.h"

@@ -2,7 +2,6 @@
 // stiffness, rest of each spring, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n).
 //   implicit_euler.all                                 x (3), v (3) of each particle after the last step
 //   implicit_euler.watch   also: index of a particle   x (3), v (3) of this particle after each step
-#include <stdexcept>
 #include <utility>
 
 #include "calls.h"

@@ -1,7 +1,6 @@
 // Sequential access to a list of numbers. C++17, standard library only.
 #pragma once
 
-#include <stdexcept>
 #include <vector>
 
 #include "case.h"

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <set>
-#include <sstream>
 
-#include "mysim/base/files.h"
 #include "tests/coursework/check/judge.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"

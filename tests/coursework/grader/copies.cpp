@@ -1,7 +1,6 @@
 // Parses grade.toml, and the marks that systems and users add to names of copies (tables).
 #include "tests/coursework/grader/copies.h"
 
-#include <fmt/ranges.h>
 #include <iconv.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 #include "tests/coursework/grader/submission.h"

@@ -4,7 +4,6 @@
 #include "tests/coursework/grader/engine.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>

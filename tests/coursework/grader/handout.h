@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "tests/coursework/check/cases_file.h"
 #include "tests/coursework/grader/assignment.h"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "mysim/base/command_line.h"
 #include "mysim/base/errors.h"

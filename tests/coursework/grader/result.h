@@ -1,12 +1,10 @@
 // The result of grading one submission, as JSON, as text for the terminal, and as a page.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tests/coursework/check/judge.h"
 #include "tests/coursework/check/texts.h"
 
 namespace coursework {

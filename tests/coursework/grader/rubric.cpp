@@ -8,7 +8,6 @@
 #include <cmath>
 #include <set>
 
-#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/toml.h"

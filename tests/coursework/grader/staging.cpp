@@ -1,7 +1,6 @@
 // Temporary folders and users of a sandboxed run, and copies of its files.
 #include "tests/coursework/grader/staging.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <pwd.h>
 #include <sys/socket.h>

@@ -1,7 +1,6 @@
 // Expected answers from matrices: an iteration over the springs is a Gauss-Seidel iteration for the pulls of the
 // implicit step; the true motion is a sum of normal modes.
 #include <Eigen/Dense>
-#include <cmath>
 
 #include "tests/coursework/m1-misconceptions/cases.h"
 

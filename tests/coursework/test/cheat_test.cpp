@@ -2,9 +2,7 @@
 // on all assignments.
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "mysim/base/files.h"

@@ -3,7 +3,6 @@
 
 #include <fstream>
 
-#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "tests/coursework/grader/class.h"
 #include "tests/coursework/test/helpers.h"

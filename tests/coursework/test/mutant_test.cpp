@@ -8,9 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
-#include <set>
 
-#include "mysim/base/files.h"
 #include "tests/coursework/check/judge.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/parallel.h"

@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 
-#include "mysim/base/files.h"
 #include "tests/coursework/check/seen.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/fit.h"
 #include "tests/coursework/grader/observe.h"
 #include "tests/coursework/test/helpers.h"
-#include "tests/coursework/test/tiny/tiny_assignment.h"
 
 namespace coursework {
 namespace {

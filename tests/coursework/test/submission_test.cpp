@@ -12,7 +12,7 @@
 #include "tests/coursework/classic/build_plan.h"
 #include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/grader/build.h"
-#include "tests/coursework/grader/class.h"
+#include "tests/coursework/grader/layouts.h"
 #include "tests/coursework/grader/submission.h"
 #include "tests/coursework/test/helpers.h"
 

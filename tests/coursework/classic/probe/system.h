@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
