@@ -118,7 +118,7 @@ Run with_duration(const Method& method, const Scene& scene, Run run, double dura
     const ResourceEstimate one = resource_estimate_of(method, scene, longer);
     const ResourceEstimate all{one.steps * samples, one.seconds * samples, one.memory, one.frames / 2 * samples};
     throw InputError(
-        fmt::format("--duration {}: {:.3g} samples, one each {:.3g} s as in {}, {}, {} of frames; expected "
+        fmt::format("--duration {}: {:.3g} samples, one every {:.3g} s as in {}, {}, {} of frames; expected "
                     "at most a million samples: a duration of up to {:.6g} s",
                     duration, samples, interval, scene.name, in_words_of_demand(all), format_bytes(all.frames),
                     interval * most_samples));

@@ -113,7 +113,7 @@ std::span<const Experiment> experiments() {
        stiffness_points},
       {"disagreements", "Where does Bullet solve another problem than the scene states, and by how much?",
        disagreements_points},
-      {"relations", "Which relations that need no truth does each engine satisfy?", relations_points},
+      {"relations", "Which invariants does each engine satisfy (no reference solution is needed)?", relations_points},
       {"fabric", "Does a cloth of given bending rigidity hang and vibrate like the elastica and a beam, on any grid?",
        fabric_points},
       {"matrix",

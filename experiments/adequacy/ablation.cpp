@@ -59,7 +59,7 @@ std::optional<double> model_error(const Scene& model, const ReferenceSolution& y
 
 ReferenceSolution reference_solution_of(const Scene& scene, double tolerance) {
   auto truth = truth_of(scene, default_run(scene));
-  if (!truth) throw Unsupported("no truth is known for it");
+  if (!truth) throw Unsupported("no reference solution is known for it");
   ReferenceSolution y{find_method(rule_for(scene)), {}, std::move(*truth), 0};
   const double until = std::min(scene.window, y.truth.until);
   constexpr int most_halvings = 7;

@@ -52,8 +52,7 @@ std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& 
 }
 
 std::string truth_text(const Truth& truth) {
-  return truth.under_contact_rule ? "what the in-house contact rule converges to: a difference"
-                                  : std::string(name_of(truth.tier));
+  return truth.under_contact_rule ? "limit of mysim's contact rule: a difference" : std::string(name_of(truth.tier));
 }
 
 void ablations_on(const Request&, const Scene& scene, TableSet& tables) {

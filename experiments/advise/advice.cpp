@@ -70,7 +70,7 @@ std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen
   else
     file.set("time.step", chosen.step), file.set("time.tolerance", a.tolerance);
   return fmt::format(
-      "# Advised by crosscheck: the cheapest run of {} that stays within {:.6g} m of its truth until {:.6g} s.\n{}",
+      "# Advised by crosscheck: cheapest run of {} within {:.6g} m of the reference solution until {:.6g} s.\n{}",
       a.scene.name, a.tolerance, a.until, file.text());
 }
 
@@ -78,7 +78,7 @@ void caveats_of(Advice& a, const Trial& t) {
   if (t.method.starts_with(program_prefix))
     a.caveats.push_back(fmt::format("a scene file cannot name a program: run it with --method {}", t.method));
   if (a.under_contact_rule)
-    a.caveats.push_back("with contact this is a difference from the converged in-house contact rule, not an error");
+    a.caveats.push_back("with contact this is a difference from the limit of mysim's contact rule, not an error");
   if (a.until < a.scene.duration * (1 - 1e-9))
     a.caveats.push_back(
         fmt::format("the guarantee ends at {:.3g} s of {:.3g} s: single positions are not predictable after that",
@@ -105,9 +105,9 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
            .until = path.until()};
   // requires an error bar of at most a third of the tolerance, which leaves two thirds to the run's own error
   if (!(a.error_bar <= tolerance / 3))
-    throw CannotGuarantee(
-        fmt::format("the truth is known to {:.2g} m only, but {:.2g} m is requested; request {:.2g} m or more",
-                    a.error_bar, tolerance, 3 * a.error_bar));
+    throw CannotGuarantee(fmt::format(
+        "the reference solution is known to {:.2g} m only, but {:.2g} m is requested; request {:.2g} m or more",
+        a.error_bar, tolerance, 3 * a.error_bar));
   if (tolerance >= path.motion())
     throw CannotGuarantee(
         fmt::format("nothing in the scene moves by more than {:.3g} m (RMS), but {:.3g} m is requested: any "
@@ -197,7 +197,7 @@ bool written_and_checked(Advice& a, const std::vector<Candidate>& models, const 
     last.step = written.step;
     a.toml = file_of(a, model, last, method);
     written = parse_scene(a.toml, a.scene.name);
-    a.caveats.push_back("the step is shorter than the tolerance requires, in order to keep the wishes");
+    a.caveats.push_back("the step is shorter than the tolerance requires, in order to meet the wishes");
   }
   MaxErrorObserver farthest(path);
   last.outcome = run_method(method, written, observed_run(method, written, path), {&farthest});

@@ -38,15 +38,15 @@ int samples_at(const Scene& scene, double spacing) {
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
   if (!(all <= most_numbers))
     throw CannotGuarantee(
-        fmt::format("to resolve the motion between samples, the truth of {} would be needed at {:.3g} times of {:.3g} "
-                    "numbers each; shorten its duration",
+        fmt::format("to resolve the motion between samples, the reference solution of {} would be needed at {:.3g} "
+                    "times of {:.3g} numbers each; shorten its duration",
                     scene.name, samples * scene.samples, static_cast<double>(scene.start.x.size())));
   return std::max(1, static_cast<int>(samples));
 }
 
 Truth dense_truth_of(const Scene& dense) {
   auto truth = truth_of(dense, default_run(dense));
-  if (!truth) throw CannotGuarantee("no truth is known for the scene, so no advice can be guaranteed");
+  if (!truth) throw CannotGuarantee("no reference solution is known for the scene, so no advice can be guaranteed");
   return std::move(*truth);
 }
 
@@ -80,8 +80,9 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // accurate enough for advice
     if (i == most_doublings)
-      throw CannotGuarantee(fmt::format(
-          "between its samples the truth is known to {:.2g} m only, but {:.2g} m is requested", bar_, tolerance));
+      throw CannotGuarantee(
+          fmt::format("between samples the reference solution is known to {:.2g} m only, but {:.2g} m is requested",
+                      bar_, tolerance));
   }
   // between two samples the phase advances by up to 0.79, an eighth of a turn; within the time resolution, by 1/16
   const double omega = fastest_motion(scene);

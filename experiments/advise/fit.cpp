@@ -156,7 +156,7 @@ class Fit {
     if (omega > 0) written.step = std::min(written.step, 1 / omega);
     fitted.wishes = keep_wishes(fitted.scene, written);
     if (written.step != fitted.scene.step) file.set("time.step", written.step);
-    fitted.toml = fmt::format("# Fitted by crosscheck to its wishes.\n{}", file.text());
+    fitted.toml = fmt::format("# Fitted by crosscheck to the wishes of the scene.\n{}", file.text());
     fitted.scene = parse_scene(fitted.toml, name_);
     return fitted;
   }
@@ -237,7 +237,7 @@ class Fit {
       for (const Objective& objective : objectives_) names.push_back(objective.wished.name);
       throw CannotGuarantee(
           fmt::format("{} cannot be measured in this scene for any parameters: it does not oscillate, "
-                      "or has no rest (hard distances, spheres, gusts, moving pins, no pins)",
+                      "or has no state of rest (hard distances, spheres, gusts, moving pins, no pins)",
                       fmt::join(names, ", ")));
     }
     return *best;

@@ -46,7 +46,7 @@ class PeerRuns {
  public:
   PeerRuns(const Scene& scene, Progress& progress)
       : scene_(scene), progress_(progress), unit_(2 / highest_frequency(scene.model, scene.start)) {
-    progress_.begin(fmt::format("{}: the truth", scene_.name));
+    progress_.begin(fmt::format("{}: reference solution", scene_.name));
     const Points before = end_of(truth_step);
     truth_ = end_of(truth_step / 2);
     bar_ = rms_distance(before, truth_);
@@ -174,7 +174,7 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
   }
   const std::vector<PeerRun> own = runs.own(wanted, most);
 
-  record.progress.begin(fmt::format("{}: all in turns", scene));
+  record.progress.begin(fmt::format("{}: all methods, interleaved", scene));
   std::vector<TimedRun> turns;
   std::vector<std::vector<double>> peer_times(peers.size());                             // s per evaluation, by round
   std::map<simd::InstructionSet, std::map<std::string, std::vector<double>>> own_times;  // by method
@@ -210,9 +210,9 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
       else if (!peer.ok() || peer_times[i].empty())
         row.remark = "the peer's run failed";
       else if (*peer.error <= 2 * bar)
-        row.remark = "below the error bar of the truth";
+        row.remark = "below the error bar of the reference solution";
       else if (!set_cheapest(row, peer, peer_times[i], own, *peer.error - 2 * bar, own_times[isa]))
-        row.remark = "no run of mysim that was tried errs as little";
+        row.remark = "no run of mysim that was tried is as accurate";
       record.rows.push_back(std::move(row));
     }
 }

@@ -55,7 +55,7 @@ class TimedCloth {
 
 void measure_threads(const ThreadsOptions& options, BenchRecord& record) {
   if (cores_allowed() < 2) {
-    record.notes.emplace_back("bench leaves out two threads: this process may use one core");
+    record.notes.emplace_back("bench leaves out two threads: this process may use only one core");
     return;
   }
   for (const int side : options.sides) {
@@ -71,17 +71,17 @@ void measure_threads(const ThreadsOptions& options, BenchRecord& record) {
     BenchRow row{.work = bench_work::two_threads,
                  .scene = scene.name,
                  .peer = "one thread",
-                 .variant = both_at_work ? "" : "too small for a second",
+                 .variant = both_at_work ? "" : "too small for a second thread",
                  .mysim = fmt::format("{}+threads=2", rule),
                  .instructions = simd::active_instruction_set(),
                  .unit = "step",
                  .share = two.share()};
     set_times(row, times[0], times[1]);
     if (both_at_work && *row.share < nearly_all)
-      record.notes.push_back(
-          fmt::format("bench: two threads on {} got {:.0f} % of the time of two cores, as something else ran: their "
-                      "ratio is less than this machine can give",
-                      scene.name, 100 * *row.share));
+      record.notes.push_back(fmt::format(
+          "bench: two threads on {} received {:.0f} % of the time of two cores, because other programs ran: "
+          "their ratio would be higher on an idle machine",
+          scene.name, 100 * *row.share));
     record.rows.push_back(std::move(row));
   }
 }

@@ -62,7 +62,7 @@ std::string Answer::sentence() const {
   if (mark == RelationMark::not_applicable || finding.what.empty()) return reason;
   const std::string unit = finding.unit == "1" ? "" : " " + finding.unit;
   const std::string allowed = fmt::format("the tolerance of {:.2g}{}", finding.tolerance, unit);
-  std::string text = finding.tolerance <= 0 ? fmt::format("{:.2g}{}, where none is allowed", finding.measured, unit)
+  std::string text = finding.tolerance <= 0 ? fmt::format("{:.2g}{}, where only 0 is allowed", finding.measured, unit)
                      : finding.holds()      ? fmt::format("{:.2g} of {}", finding.ratio(), allowed)
                                             : fmt::format("{:.3g} times {}", finding.ratio(), allowed);
   if (finding.since) text += fmt::format(", since {:.3g} s", *finding.since);

@@ -38,7 +38,7 @@ struct Rest {
 };
 Rest at_rest(Subject& subject, const Scene& scene) {
   const SubjectRun& run = subject.run(scene);
-  if (run.path.frames() < 9) throw CannotBeAsked("the scene has fewer than eight samples, of which two show its rest");
+  if (run.path.frames() < 9) throw CannotBeAsked("the scene has fewer than eight samples");
   Rest rest{run.path.x.back(), 0};
   for (int i = run.path.frames() * 3 / 4; i < run.path.frames(); ++i)
     rest.unsettled = std::max(rest.unsettled, largest_column(run.path.x[i] - rest.x));
@@ -153,15 +153,16 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   const auto shrinks = [&](const char* at, const std::vector<double>& fine, const char* than,
                            const std::vector<double>& coarse, std::vector<double> most) {
     for (size_t i = 0; i < most.size(); ++i) most[i] += std::exp2(0.5 - order) * coarse[i];
-    return over_time(fmt::format("change of angular momentum at {} the step, where order {} allows 2^-{} of that at {}",
-                                 at, order, order - 0.5, than),
-                     "kg m^2/s", path, most, [&](int i) { return fine[i]; });
+    return over_time(
+        fmt::format("change of angular momentum at {} the step; order {} allows 2^-{} times that at {} step", at, order,
+                    order - 0.5, than),
+        "kg m^2/s", path, most, [&](int i) { return fine[i]; });
   };
   RelationResult found = shrinks("half", half, "the whole", whole, rounding(1));
   if (found.holds()) return found;
   // At a coarse step, a damping rule has removed most of a vibration, so that the change is near its limit: in a case
   // with six particles, consecutive halvings of the step multiplied the change by 0.68, 0.59, 0.55 and 0.52.
-  RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half", half, rounding(2));
+  RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half the", half, rounding(2));
   return finer.ratio() < found.ratio() ? finer : found;
 }
 
@@ -208,12 +209,12 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   const Method& method = subject.method();
   const Run run = run_for_relations(scene);
   const Drift whole = drift_of(subject, scene, run);
-  RelationResult found{"mean energy of the last tenth against the first", "J", whole.change, whole.hidden};
+  RelationResult found{"mean energy of the last tenth minus the first", "J", whole.change, whole.hidden};
   for (int part = 1; part < 10 && !found.since && !found.holds(); ++part)
     if (whole.changes[part] > found.tolerance) found.since = whole.times[part];
   if (found.holds()) return found;
   if (!method.adaptive && chooses_steps(method))
-    throw CannotBeAsked("its energy drifts, and as it chooses its own steps, no order of the drift can be seen");
+    throw CannotBeAsked("its energy drifts, and as it chooses its own steps, the order of the drift is unknown");
   // rules that are not symplectic gain or lose energy by an error of at least their order; the allowance of half a
   // power covers terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
   const double part = method.adaptive ? 0.5 : std::exp2(0.5 - order_of(method));
@@ -225,7 +226,7 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   Drift before = whole;
   for (int times = 1; times <= 3 && !found.holds(); ++times) {
     const Drift after = finer(times);
-    RelationResult falls{fmt::format("drift of the energy at {}, of which {:.2g} of that before is allowed",
+    RelationResult falls{fmt::format("energy drift at {}; allowed: {:.2g} times the previous drift",
                                      method.adaptive ? fmt::format("10^-{} of the tolerance", times)
                                                      : fmt::format("2^-{} of the step", times),
                                      part),
@@ -244,7 +245,7 @@ RelationResult pins_on_their_path(Subject& subject, const Scene& scene, unsigned
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   const std::vector<double> bound(path.frames(),
                                   10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, path));
-  return over_time(p.move ? "pins against their prescribed path" : "pins against their place", "m", path, bound,
+  return over_time(p.move ? "distance of pins from their path" : "distance of pins from their place", "m", path, bound,
                    [&](int i) {
                      State there = scene.start;
                      there.t = path.t[i];
@@ -263,7 +264,7 @@ RelationResult rest_without_damping(Subject& subject, const Scene& scene, unsign
     for (auto& d : dashpots->list) d.c *= factor;
   more.hash = hash_of(more);
   const Rest here = at_rest(subject, scene), there = at_rest(subject, more);
-  return {"the shape of rest against that with 1.6 times the damping", "m", largest_column(here.x - there.x),
+  return {"the shape at rest minus that with 1.6 times the damping", "m", largest_column(here.x - there.x),
           here.unsettled + there.unsettled};
 }
 
@@ -284,7 +285,7 @@ RelationResult extension_by_stiffness(Subject& subject, const Scene& scene, unsi
     pull.push_back(tension.force / below);
     stiffest = std::max(stiffest, tension.slope / below);
   }
-  RelationResult found{"tension over the mass below, against gravity", "m/s^2", 0, 4 * stiffest * rest.unsettled};
+  RelationResult found{"tension over the mass below, minus gravity", "m/s^2", 0, 4 * stiffest * rest.unsettled};
   for (const double p : pull) found.measured = std::max(found.measured, std::abs(p - weight));
   return found;
 }
@@ -302,8 +303,8 @@ RelationResult stiffness_has_effect(Subject& subject, const Scene& scene, unsign
     const double before = extension_of(spring, soft.x), after = extension_of(spring, hard.x);
     // any effect that is larger than the remaining movement counts
     RelationResult found{
-        fmt::format("extension of the spring between {} and {} with four times its stiffness, of that before", spring.a,
-                    spring.b),
+        fmt::format("extension of the spring between {} and {} with four times its stiffness, over that before",
+                    spring.a, spring.b),
         "1", after / before, 1 - 2 * (soft.unsettled + hard.unsettled) / std::abs(before)};
     worst = worst ? worse(*worst, std::move(found)) : std::move(found);
   }

@@ -190,7 +190,7 @@ class Kit {
       return false;
     const bool begins = add_tried(scene, "first frame", answers, made, [&] {
       read_positions(x, scene, run);
-      return std::string("the scene's start");
+      return std::string("the scene's initial state");
     });
     if (scene.name == "fall") try_times(scene, run, path);
     std::vector<Points> speeds;
@@ -369,7 +369,7 @@ class Kit {
         {"friction", "spheres[].friction and planes[].friction"},
         {"restitution", "spheres[].restitution and planes[].restitution"},
         {"nothing else",
-         "what it denies: zeros and empty lists for what the scene has not (gravity, drag, spheres, "
+         "zeros and empty lists for ingredients that the scene does not have (gravity, drag, spheres, "
          "later, probe.dashpots, probe.wind)"}};
     for (const auto& [begin, key] : keys)
       if (quantity.starts_with(begin)) return std::string(key);
@@ -388,7 +388,7 @@ class Kit {
       const std::string topic = "certificate: " + quantity;
       if (row.parity == Parity::mismatch)
         add(scene, topic, false, true,
-            fmt::format("asked {}, read back {}: another scene was built", row.requested, row.read_back), run_file);
+            fmt::format("expected {}, read back {}: another scene was built", row.requested, row.read_back), run_file);
       else if (row.parity == Parity::unattested)
         add(scene, topic, false, false, fmt::format("add to readback: {}", key_of(quantity)), run_file);
       else
@@ -433,7 +433,7 @@ class Kit {
       add(scene.name, "unknown option", option.good() || said, true,
           option.good() ? "is ignored"
           : said        ? "is refused: " + option.last_line()
-                        : fmt::format("it {}: ignore it, or refuse it with a line", option.how()),
+                        : fmt::format("it {}: ignore it, or refuse it with one line", option.how()),
           called);
       return;
     }

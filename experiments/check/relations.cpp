@@ -22,39 +22,39 @@ std::string with_springs(const Scene& s) {
   return s.model.find<Springs>() || s.model.find<Constraints>() ? "" : "no springs";
 }
 std::string movable(const Scene& s) {
-  if (s.model.first_order()) return "its field has a place and a direction";
+  if (s.model.first_order()) return "its field depends on place and direction";
   // rounding decides the last bounces before rest, and perturbations of the start do not reveal this
   for (const Surface& surface : surfaces_of(s.model))
-    if (surface.restitution > 0) return "endless bounces are decided by rounding";
+    if (surface.restitution > 0) return "rounding decides the last of endless bounces";
   return "";
 }
 std::string symmetric(const Scene& s) { return mirror_of(s) ? "" : "not symmetric"; }
-std::string smooth(const Scene& s) { return has_contact(s.model) ? "contacts leave no order" : ""; }
-std::string unchanging(const Scene& s) { return outside_of(s).changing ? "what acts changes with time" : ""; }
+std::string smooth(const Scene& s) { return has_contact(s.model) ? "contact lowers the order" : ""; }
+std::string unchanging(const Scene& s) { return outside_of(s).changing ? "forces or pins vary with time" : ""; }
 std::string pinned(const Scene& s) { return s.model.particles.pins.empty() ? "no pins" : ""; }
-std::string hanging_chain(const Scene& s) { return hanging_chain_of(s).empty() ? "no damped chain that hangs" : ""; }
+std::string hanging_chain(const Scene& s) { return hanging_chain_of(s).empty() ? "no damped hanging chain" : ""; }
 
 std::string falling(const Scene& s) {
   const Outside o = outside_of(s);
   if (!o.gravity) return "no gravity";
-  if (o.pins || o.wind || o.air || o.drag || o.contact || o.constraints) return "not gravity alone acts from outside";
+  if (o.pins || o.wind || o.air || o.drag || o.contact || o.constraints) return "external forces besides gravity";
   if (!springs_at_rest(s)) return "springs are not at rest";
-  return largest_column((s.start.v.colwise() - Vec3(s.start.v.col(0))).eval()) > 0 ? "its particles start unlike" : "";
+  return largest_column((s.start.v.colwise() - Vec3(s.start.v.col(0))).eval()) > 0 ? "initial velocities differ" : "";
 }
 std::string resting(const Scene& s) {
   const Outside o = outside_of(s);
-  if (o.gravity || o.wind || o.air || o.contact || o.field || o.changing) return "something acts";
+  if (o.gravity || o.wind || o.air || o.contact || o.field || o.changing) return "external forces act";
   if (!springs_at_rest(s)) return "springs are not at rest";
   return largest_column(s.start.v) > 0 ? "it starts in motion" : "";
 }
 std::string isolated(const Scene& s) {
   const Outside o = outside_of(s);
-  return o.pins || o.gravity || o.wind || o.air || o.drag || o.contact || o.field ? "something acts from outside" : "";
+  return o.pins || o.gravity || o.wind || o.air || o.drag || o.contact || o.field ? "external forces act" : "";
 }
 std::string undamped(const Scene& s) {
   const Outside o = outside_of(s);
   return o.drag || o.dashpots || o.wind || o.air || o.contact || o.constraints || o.field || o.changing
-             ? "energy is taken or given"
+             ? "energy is supplied or dissipated"
              : "";
 }
 

@@ -15,8 +15,8 @@ void require_own_step(const Method& method) {
   if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
   if (method.identify && method.identify().kind == FoundRule::ignores_step)
     throw RunFailed(
-        "the step asked for has no effect, and the error is not that of an engine that chooses its steps (which says "
-        "so by \"adaptive\" in run.json)",
+        "the requested step has no effect, but run.json does not say \"adaptive\", as an engine must that chooses its "
+        "own steps",
         0, Verdict::ok);
 }
 
@@ -65,15 +65,15 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   const auto difference = [&](int times) {
     return distances(halved(subject, scene, times), halved(subject, scene, times + 1));
   };
-  const std::string allowed = fmt::format("where order {} allows 2^-{} of", order, order - 0.5);
+  const std::string allowed = fmt::format("order {} allows 2^-{} times that between", order, order - 0.5);
   RelationResult found =
-      shrinking(fmt::format("a half against a quarter of the step, {} the whole against a half", allowed), scene, one,
+      shrinking(fmt::format("difference between steps of h/2 and h/4; {} h and h/2", allowed), scene, one,
                 difference(0), difference(1), std::exp2(0.5 - order), noise_at(subject, scene, 2));
   if (found.holds()) return found;
   // terms of higher order may cancel the first difference at one step, but not also at the next one
   RelationResult finer =
-      shrinking(fmt::format("a quarter against an eighth of the step, {} a half against a quarter", allowed), scene,
-                one, difference(1), difference(2), std::exp2(0.5 - order), noise_at(subject, scene, 3));
+      shrinking(fmt::format("difference between steps of h/4 and h/8; {} h/2 and h/4", allowed), scene, one,
+                difference(1), difference(2), std::exp2(0.5 - order), noise_at(subject, scene, 3));
   return finer.ratio() < found.ratio() ? finer : found;
 }
 
@@ -84,22 +84,21 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
   // at order one, two halvings of the step reduce the difference to a quarter; if it falls below half, the results have
   // a limit
-  RelationResult found =
-      shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
-                distances(one, two), distances(four, eight), 0.5, noise);
+  RelationResult found = shrinking("difference between steps of h/4 and h/8; allowed: half of that between h and h/2",
+                                   scene, one, distances(one, two), distances(four, eight), 0.5, noise);
   if (!found.holds()) {  // gives a finer step a chance, as half_the_step() does
-    RelationResult finer = shrinking(
-        "an eighth against a sixteenth of the step, which is to be half of a half against a quarter", scene, one,
-        distances(two, four), distances(eight, halved(subject, scene, 4)), 0.5, noise_at(subject, scene, 4));
+    RelationResult finer =
+        shrinking("difference between steps of h/8 and h/16; allowed: half of that between h/2 and h/4", scene, one,
+                  distances(two, four), distances(eight, halved(subject, scene, 4)), 0.5, noise_at(subject, scene, 4));
     if (finer.ratio() < found.ratio()) found = std::move(finer);
   }
   const auto more = subject.with_iterations(2);
   if (!more) return found;
   // results with n and with 2n iterations have a common limit if their difference shrinks with the step
   Subject other(*more);
-  return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
-                                scene, one, distances(one, halved(other, scene, 0)),
-                                distances(two, halved(other, scene, 1)), std::sqrt(0.5), noise));
+  return worse(found, shrinking("difference between n and 2n iterations at h/2; allowed: 0.71 times that at h", scene,
+                                one, distances(one, halved(other, scene, 0)), distances(two, halved(other, scene, 1)),
+                                std::sqrt(0.5), noise));
 }
 
 RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
@@ -108,11 +107,11 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   const int middle = run.samples / 2;
   if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
   if (whole.v[middle].cols() != scene.start.v.cols())
-    throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
+    throw CannotBeAsked("it reports no velocities, without which it cannot be resumed");
   // a run that is at rest up to rounding does not show whether it continues correctly
   double moved = 0;
   for (int i = middle; i <= run.samples; ++i) moved = std::max(moved, largest_column(whole.x[i] - whole.x[middle]));
-  if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it has come to rest before its middle");
+  if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it comes to rest in the first half of the run");
   Scene later = scene;
   later.start.x = whole.x[middle], later.start.v = whole.v[middle];
   later.duration = scene.duration * (run.samples - middle) / run.samples, later.samples = run.samples - middle;
@@ -126,7 +125,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   std::vector<double> bound = subject.noise(scene).x;
   if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);
-  return farthest("the second half against a run that starts from the middle", second_half, rest, bound,
+  return farthest("distance between the second half and a run from the middle", second_half, rest, bound,
                   lengths_in(scene, whole));
 }
 

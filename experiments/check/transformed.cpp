@@ -29,13 +29,13 @@ std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const S
 
 RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed) {
   return beside_placed(subject, scene, {seeded_turn(seed), Vec3::Zero()},
-                       "the turned run against the run of the turned start");
+                       "distance between the rotated run and the run from the rotated start");
 }
 
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed) {
   const Vec3 shift = scene.size() * seeded_turn(seed).col(0);
   return beside_placed(subject, scene, {Eigen::Matrix3d::Identity(), shift},
-                       "the shifted run against the run of the shifted start");
+                       "distance between the shifted run and the run from the shifted start");
 }
 
 RelationResult order_of_particles(Subject& subject, const Scene& scene, unsigned seed) {
@@ -47,14 +47,14 @@ RelationResult order_of_particles(Subject& subject, const Scene& scene, unsigned
     for (int i = 0; i < x.cols(); ++i) back.col(order[i]) = x.col(i);
     return back;
   });
-  return farthest("the run against that with the particles in another order", here, there,
+  return farthest("distance from the run with particles in another order", here, there,
                   bound_of_order(subject, scene, other), lengths_in(scene, here));
 }
 
 RelationResult order_of_springs(Subject& subject, const Scene& scene, unsigned seed) {
   const Trajectory& here = subject.run(scene).path;
   const Scene other = springs_reordered(scene, seed);
-  return farthest("the run against that with the springs in another order", here, subject.run(other).path,
+  return farthest("distance from the run with springs in another order", here, subject.run(other).path,
                   bound_of_order(subject, scene, other), lengths_in(scene, here));
 }
 
@@ -67,11 +67,11 @@ RelationResult scaled_scene(Subject& subject, const Scene& scene, unsigned) {
     Scaling scaling;
   };
   std::optional<RelationResult> worst;
-  for (const auto& [what, scaling] : {Case{"lengths a 128th", {0x1p-7, 1, 1}}, Case{"masses a 1024th", {1, 0x1p-10, 1}},
-                                      Case{"times a quarter", {1, 1, 0x1p-2}}}) {
+  for (const auto& [what, scaling] : {Case{"lengths / 128", {0x1p-7, 1, 1}}, Case{"masses / 1024", {1, 0x1p-10, 1}},
+                                      Case{"times / 4", {1, 1, 0x1p-2}}}) {
     const Trajectory there = with_positions(subject.run(scaled(scene, scaling)).path,
                                             [&](const Points& x) { return Points(x / scaling.length); });
-    RelationResult found = farthest(fmt::format("the run against that with {}, scaled back", what), here, there, noise,
+    RelationResult found = farthest(fmt::format("distance from the run with {}, scaled back", what), here, there, noise,
                                     lengths_in(scene, here));
     worst = worst ? worse(*worst, std::move(found)) : std::move(found);
   }
@@ -87,7 +87,7 @@ RelationResult mirror_symmetry(Subject& subject, const Scene& scene, unsigned) {
     for (int i = 0; i < x.cols(); ++i) image.col(mirror.image[i]) = reflected.col(i);
     return image;
   });
-  return farthest("the run against its mirror image", here, there, bound_of_order(subject, scene, scene),
+  return farthest("distance from the mirror image", here, there, bound_of_order(subject, scene, scene),
                   lengths_in(scene, here));
 }
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks an engine, for CI: relations that need no truth, then a comparison of its results with the blessed ones.
+# Checks an engine, for CI: invariants that need no reference solution, then a comparison with its blessed results.
 #
 #   check-engine.sh ENGINE OUT [SCENE]...     ENGINE is a program of the engine protocol; OUT gets check/ and regress/,
 #                                             with a page each; the default scenes are the small ones pendulum, chain
 #
 # Environment: PREPARE, a shell command to run first, such as the build of the engine; BASELINES, the folder of blessed
-# results (crosscheck-baselines). Exit status: 0 nothing broken or changed; 1 something is; 2 bad usage.
+# results (crosscheck-baselines). Exit status: 0 nothing is broken or changed; 1 something is; 2 bad usage.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 engine=$1 out=$2
@@ -30,7 +30,7 @@ step check crosscheck check "exec:$engine" "${scenes[@]}" --out "$out/check"
 if [ -d "$baselines" ]; then
   step regress crosscheck regress "${scenes[@]}" --method "exec:$engine" --baselines "$baselines" --out "$out/regress"
 else
-  printf 'no results are blessed yet: commit the folder that this writes, where you trust the engine:\n  %s\n' \
+  printf 'no results are blessed yet; once you trust the engine, commit the folder that this command writes:\n  %s\n' \
     "crosscheck regress ${scenes[*]} --method exec:$engine --baselines $baselines --bless --reason \"first results\""
 fi
 exit "$status"

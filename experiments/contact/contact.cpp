@@ -118,7 +118,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
   for (const Scene& scene : contact_order_probes()) {
     const auto truth = truth_of(scene, default_run(scene));
     if (!truth || truth->under_contact_rule) {
-      tables.notes.push_back(fmt::format("contact knows no truth of '{}'", scene.name));
+      tables.notes.push_back(fmt::format("contact leaves out {}: no reference solution is known for it", scene.name));
       continue;
     }
     for (const Method& each : methods) {

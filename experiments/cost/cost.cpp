@@ -131,7 +131,7 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
   for (size_t i = 0; i < methods.size(); ++i) {
     const Timing t = timing_of(times[i]);
     if (!(t.median > 0)) {
-      tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", methods[i].name));
+      tables.notes.push_back(fmt::format("{} does not report its CPU time", methods[i].name));
       continue;
     }
     add(table, SizeCostRow{.method = methods[i].name,
@@ -200,7 +200,7 @@ Table phases_table(int n, const std::vector<std::string>& methods, const std::ve
   add_phase(0, "whole step", times[3], whole, "with the sphere");
   for (size_t i = 1; i < methods.size(); ++i)
     add_phase(i, "whole step", times.at(3 + i), times[3 + i].median,
-              i == 1 ? "all in one pass over memory" : "what it does inside cannot be told from outside");
+              i == 1 ? "all in one pass over memory" : "its phases cannot be measured from outside");
   return table;
 }
 
@@ -227,7 +227,7 @@ void cost_of_phases(const Request& request, int n, TableSet& tables) {
 std::optional<std::string> doubt_about_peak(double peak, double triad) {
   if (!(peak < triad)) return std::nullopt;
   return fmt::format(
-      "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
+      "cost: the loop for the peak did {:.2g} billion operations per second, fewer than a = b + s c in the cache "
       "({:.2g}): the peak of the machine is higher than shown",
       peak / 1e9, triad / 1e9);
 }

@@ -116,15 +116,15 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   run.timed = false;
   run.step = request.step == 0 && method.implicit ? longer * step : step;
   if (steps < all_steps)
-    tables.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
+    tables.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}, which has {} particles{}", steps,
                                        all_steps, scene.name, scene.model.particles.size(),
                                        request.full ? "" : "; --full takes more"));
 
   // estimates the run first, because an adaptive rule may take millions of steps for stiff springs
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
     tables.notes.push_back(
-        fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
-                    method.name, scene.name, run.duration, seconds));
+        fmt::format("energy leaves out {} on {}: a run of {:.3g} s would take about {:.0f} s of CPU time", method.name,
+                    scene.name, run.duration, seconds));
     return;
   }
 
@@ -132,7 +132,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
   if (out.verdict == Verdict::ok && ledger.rows().empty())
-    tables.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
+    tables.notes.push_back(fmt::format("energy leaves out {} on {}: no velocities", method.name, scene.name));
   Table summary = table_of<EnergyRow>();
   add(summary, summary_of(scene, method, out, ledger));
   Table table = table_of<SceneLedgerRow>(scene.name + "-ledger");

@@ -60,7 +60,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
         std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == family.representative; });
     if (method == methods.end()) continue;
     if (!request.full && estimated_seconds(*method, scene, run) > 0.15) {
-      tables.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
+      tables.notes.push_back(fmt::format("statistics leave out {} on {}: sixteen runs take too long; --full has them",
                                          family.representative, scene.name));
       continue;
     }
@@ -239,8 +239,7 @@ void add_energies(const Request& request, const Scene& scene, const std::optiona
     const Outcome& out = result.outcome;
     if (out.verdict == Verdict::unsupported) continue;
     if (result.ledger.empty()) {
-      tables.notes.push_back(
-          fmt::format("energies leave out {} on {}: it gave no velocities", method.name, scene.name));
+      tables.notes.push_back(fmt::format("energies leave out {} on {}: no velocities", method.name, scene.name));
       continue;
     }
     const double start = result.ledger.front().balance();

@@ -21,7 +21,7 @@ constexpr int grids[] = {8, 16, 32, 64};
 
 double drop_at_rest(const StripNet& net, const Points& guess) {
   const auto rest = rest_near(strip_scene(net), guess);
-  if (!rest) throw std::runtime_error("a clamped strip found no rest");
+  if (!rest) throw std::runtime_error("no state of rest was found for a clamped strip");
   return drop_of(net, *rest);
 }
 
@@ -104,7 +104,7 @@ void hanging(TableSet& tables) {
       const HangingStrip strip = continuum_of(net);
       const Scene scene = strip_scene(net);
       const auto rest = rest_near(scene, scene.start.x);
-      if (!rest) throw std::runtime_error("a hanging strip found no rest");
+      if (!rest) throw std::runtime_error("no state of rest was found for a hanging strip");
       const double sag = sag_of(net, *rest), truth = strip.sag() / strip_length;
       add(table, HangingStripRow{cells, gamma, sag, truth, sag / truth - 1});
       constexpr int drawn = 16, fine = 4;  // cells of the net in the figure; points of the curve per cell
@@ -154,7 +154,7 @@ void drapes(TableSet& tables, int finest, int most_waves, unsigned random_starts
     if (drape)
       add_drape(table, *drape);
     else
-      tables.notes.push_back(fmt::format("fabric: no rest was found from {} on {} rings", start, disc.rings));
+      tables.notes.push_back(fmt::format("fabric: no state of rest was found from {} on {} rings", start, disc.rings));
     return drape;
   };
   const auto search_from = [&](int waves, unsigned seed, const std::string& start) {
@@ -162,7 +162,7 @@ void drapes(TableSet& tables, int finest, int most_waves, unsigned random_starts
   };
   for (int waves = 4; waves <= most_waves; ++waves) search_from(waves, 1, fmt::format("{} waves", waves));
   for (unsigned seed = 1; seed <= random_starts; ++seed) search_from(0, seed, fmt::format("random {}", seed));
-  if (found.empty()) throw std::runtime_error("a draped disc found no rest");
+  if (found.empty()) throw std::runtime_error("no state of rest was found for a draped disc");
   Drape lowest = *std::ranges::min_element(found, {}, &Drape::energy);
   DrapedDisc sheared = coarse;
   sheared.shear *= 4;

@@ -167,7 +167,7 @@ CostAnswer empty_step(const Method& method) {
     NullObserver nothing;
     const Outcome out = run_method(method, scene, {1e-3, 20, 1}, {&nothing});
     if (out.verdict != Verdict::ok || !(out.cpu_seconds > 0)) {
-      cell.words = out.verdict == Verdict::ok ? "it does not tell its CPU time" : std::string(in_words(out.verdict));
+      cell.words = out.verdict == Verdict::ok ? "it does not report its CPU time" : std::string(in_words(out.verdict));
       return cell;
     }
     times.push_back(out.cpu_seconds / static_cast<double>(out.steps > 0 ? out.steps : 20000));

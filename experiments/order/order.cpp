@@ -45,7 +45,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
 
 std::string why_not(const Scene& scene) {
   if (has_contact(scene.model)) return "contact makes every rule first order, erratically after impacts";
-  if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
+  if (scene.start.x.cols() > 50) return "its runs would take too long; speed-accuracy shows its error at each step";
   return "";
 }
 
@@ -62,7 +62,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
   base.timed = false;
   const auto truth = truth_of(scene, base);
   if (!truth) {
-    tables.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
+    tables.notes.push_back(fmt::format("order leaves out {}: no reference solution is known for it", scene.name));
     return;
   }
   const double motion = motion_of(truth->trajectory);
@@ -112,11 +112,11 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
                                 fit->order, fit->from, fit->to});
     } else
       tables.notes.push_back(
-          fmt::format("order sees no steady slope of {} on {}", without_folders(method.name), scene.name));
+          fmt::format("order finds no steady slope for {} on {}", without_folders(method.name), scene.name));
   }
   if (!adaptive.empty())
     tables.notes.push_back(
-        fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
+        fmt::format("order leaves out {}: their steps follow a tolerance", fmt::join(adaptive, ", ")));
   tables.add(points);
   tables.add(slopes);
 }

@@ -166,7 +166,7 @@ std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::
     Comparison row;
     row.scene = baseline.scene, row.method = e.method, row.without = e.without;
     row.quantity = "all", row.unit = "word", row.state = Status::gone;
-    row.note = "nobody asks for it any more";
+    row.note = "no longer measured";
     rows.push_back(row);
   }
   return rows;

@@ -152,8 +152,8 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
   if (mismatch || (refused > 0 && !tries.empty()))
-    notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, {}: {}", refused, settings.size(),
-                                method.name, scene.name, mismatch ? "for" : "which it refuses", refusal));
+    notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}: {}{}", refused, settings.size(),
+                                method.name, scene.name, mismatch ? "" : "refused: ", refusal));
   return tries;
 }
 
@@ -170,7 +170,7 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
 
 std::string why_not(const Scene& scene, double motion) {
   // if nothing moves, a run of one step is as accurate as any other
-  if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
+  if (!(motion > 1e-6 * scene.size())) return "nothing moves";
   return "";
 }
 
@@ -270,7 +270,7 @@ void refine(const Method& method, const Judged& of, const Request& request, Moti
 
 std::string tier_text(const Judged& of) {
   return !of.truth ? ""
-                   : std::string(name_of(of.truth->tier)) + (of.under_contact_rule() ? ", in-house contact rule" : "");
+                   : std::string(name_of(of.truth->tier)) + (of.under_contact_rule() ? ", mysim's contact rule" : "");
 }
 
 SpeedAccuracyRow row_of(const Judged& of, const std::string& method, const SettingRun& run,
@@ -313,8 +313,8 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
     return;
   }
   if (!of.truth)
-    tables.notes.push_back(
-        fmt::format("speed-accuracy knows no truth of {}: only distances to each method's own finest run", scene.name));
+    tables.notes.push_back(fmt::format(
+        "speed-accuracy on {}: no reference solution, only distances to each method's own finest run", scene.name));
   of.until = of.truth ? std::min(scene.window, of.truth->until) : scene.window;
 
   Table table = table_of<SpeedAccuracyRow>();
@@ -341,8 +341,9 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
     for (const SettingRun& run : tries) add(table, row_of(of, method.name, run, tries));
   }
   if (!shortened.empty())
-    tables.notes.push_back(fmt::format("speed-accuracy on {} leaves out runs that would cost much{}: {}", scene.name,
-                                       request.full ? "" : "; --full has more of them", fmt::join(shortened, ", ")));
+    tables.notes.push_back(fmt::format("speed-accuracy leaves out slow runs on {}{}: {}", scene.name,
+                                       request.full ? "" : "; --full includes more of them",
+                                       fmt::join(shortened, ", ")));
   tables.add(table);
 }
 
@@ -445,7 +446,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, const Table
     const Timing& t = times[i];
     if (!(t.median > 0)) {
       if (timed[i].evaluations > 0)
-        tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].row->method));
+        tables.notes.push_back(fmt::format("{} does not report its CPU time", timed[i].row->method));
       continue;
     }
     add(table, SpeedAccuracyTimingRow{.scene = scene.name,

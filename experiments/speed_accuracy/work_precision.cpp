@@ -135,9 +135,9 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
     }
     if (ours && bullet) row.bullet_over_mysim = bullet->cost / ours->cost;
     if (left < 0)
-      row.remark = "below the error bar of the truth";
+      row.remark = "below the error bar of the reference solution";
     else if (!best)
-      row.remark = "no run tried meets it";
+      row.remark = "no run that was tried meets it";
     add(table, row);
   }
 }

@@ -119,7 +119,7 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   if (std::isinf(rule.limit(1, 0))) return {infinity, -1, ""};
   if (!spectrum.commuting && !is_runge_kutta(rule)) return of_mixed_modes(rule, spectrum);
   if (!spectrum.commuting && !spectrum.complete && !isotropic_region(rule))
-    return {0, -1, "damping and stiffness have different modes, and of so many only the fastest rates are known"};
+    return {0, -1, "damping and stiffness have different modes, of which only the fastest rates are known"};
   PredictedLimit least{infinity, -1, ""};
   for (size_t i = 0; i < spectrum.modes.size(); ++i) {
     const auto [omega, gamma] = spectrum.modes[i];
@@ -133,14 +133,14 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
 
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
   const Stepper* rule = stepper_of(method);
-  if (!rule) return {0, -1, "no linear theory: a rule of its own"};
+  if (!rule) return {0, -1, "no linear theory is known for its rule"};
   if (method.splits_dashpots && spectrum.system.has_dashpots())
     return {0, -1,
             fmt::format("no linear theory: {} solves dashpots implicitly, at the end of the explicit step",
                         method.family().title)};
   if (method.identify && !method.family().is_engine() &&
       (spectrum.system.has_dashpots() || (!method.identify().own_drag && spectrum.system.damping().squaredNorm() > 0)))
-    return {0, -1, "no linear theory: its rule was found without such damping"};
+    return {0, -1, "no linear theory: its rule was identified without such damping"};
   return predicted_limit(*rule, spectrum);
 }
 

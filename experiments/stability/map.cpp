@@ -45,7 +45,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
   const double omega = as_it_is.spectrum.omega;
   if (!(omega > 0)) return;
   const auto no_map = [&](const std::string& why) {
-    tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it answers in no cell: {}",
+    tables.notes.push_back(fmt::format("stability draws no map of step and {} for {} on {}: no cell has a result: {}",
                                        kind.name, method.name, scene.name, why));
   };
   // An ingredient that the method does not support is missing in every cell, so the method is tried first, with a

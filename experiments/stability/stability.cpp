@@ -118,9 +118,9 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
 namespace {
 
 std::string why_not(const Method& method) {
-  if (method.family().role == Role::truth) return "truth takes no steps";
-  if (method.adaptive) return "steps that follow a tolerance";
-  if (method.sticky_contact) return "its contact rule changes no limit";
+  if (method.family().role == Role::truth) return "a reference solution takes no steps";
+  if (method.adaptive) return "its steps follow a tolerance";
+  if (method.sticky_contact) return "its contact rule does not change the limit";
   return "";
 }
 
@@ -257,7 +257,7 @@ std::vector<Point> stability_points(const Request& request) {
         points.push_back(
             {"stability: " + name, "", [name](TableSet& tables) {
                tables.notes.push_back(fmt::format(
-                   "stability leaves out {}: no linear limit, and every run costs much; --full has it", name));
+                   "stability leaves out {}: no linear limit, and its runs are slow; --full includes it", name));
              }});
       } else {
         points.push_back({"stability: " + name, content_of(alone, scene), [=, full = request.full](TableSet& tables) {
@@ -270,7 +270,7 @@ std::vector<Point> stability_points(const Request& request) {
       if (!size) {
         points.push_back({"stability: maps, " + name, "", [name](TableSet& tables) {
                             tables.notes.push_back(
-                                fmt::format("stability draws no map of {}: its runs cost much", name));
+                                fmt::format("stability draws no map of {}: its runs are slow", name));
                           }});
         continue;
       }
@@ -285,8 +285,8 @@ std::vector<Point> stability_points(const Request& request) {
       points.push_back({"stability: maps of " + scene.name, "",
                         [name = scene.name, dear = all_maps || !scene.triangles.empty()](TableSet& tables) {
                           tables.notes.push_back(
-                              fmt::format("stability draws no map of {}: {}; --full has them", name,
-                                          dear ? "its hundreds of runs cost much" : "the cloth's stand for it"));
+                              fmt::format("stability draws no map of {}: {}; --full includes them", name,
+                                          dear ? "hundreds of runs take too long" : "the cloth's maps represent it"));
                         }});
   }
   return points;

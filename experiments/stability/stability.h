@@ -12,12 +12,10 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   std::vector<std::string> reasons;
   if (has_contact(model)) reasons.emplace_back("contact");
   if (model.particles.move) reasons.emplace_back("moved pins");
-  if (!base.at_rest && model.find<Springs>())
-    reasons.emplace_back("the motion stretches and turns the springs of the start");
-  if (model.find<Aerodynamics>()) reasons.emplace_back("air damps too");
+  if (!base.at_rest && model.find<Springs>()) reasons.emplace_back("the motion stretches and turns the springs");
+  if (model.find<Aerodynamics>()) reasons.emplace_back("the air damps as well");
   if (!method.family().departure.empty()) reasons.emplace_back(method.family().departure);
-  if (reasons.empty())
-    reasons.emplace_back(model.find<Springs>() ? "nonlinearity of the springs" : "for no reason that is known");
+  if (reasons.empty()) reasons.emplace_back(model.find<Springs>() ? "nonlinearity of the springs" : "unknown reason");
   std::string all;
   for (const std::string& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
   return all;
@@ -26,8 +24,8 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
 inline std::string saddle_note(const BaseState& base) {
   if (!base.saddle) return "";
   return base.at_rest
-             ? "the equilibrium in the symmetry of the start is a saddle, not a rest; this is the rest beside it"
-             : "the only equilibrium found is a saddle, not a rest";
+             ? "the equilibrium with the symmetry of the start is an unstable saddle; this is the stable one next to it"
+             : "the only equilibrium found is an unstable saddle";
 }
 
 /// Reason for which the measurement differs from theory, or is not predicted; empty if they agree.

@@ -71,7 +71,7 @@ class Batch {
       const int at = queue_->current[w].exchange(-1);
       if (at >= 0 && WIFSIGNALED(status))
         died_[points_[static_cast<size_t>(at)]] =
-            fmt::format("it died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+            fmt::format("it was killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
       if (queue_->next < static_cast<int>(points_.size())) {
         start(w);
         ++running;
@@ -118,7 +118,7 @@ class Batch {
         const auto rows = point.after ? store_.find(point.after->hash()) : std::nullopt;
         rows ? point.compute_from(*rows, tables) : point.compute(tables);
         if (point.timed && !lock.held())
-          tables.notes.push_back(fmt::format("{} was timed beside other work: its times may be disturbed", point.name));
+          tables.notes.push_back(fmt::format("{} was timed during other work: its times may be disturbed", point.name));
         store_.keep(point.hash(), tables);
       } catch (const std::exception& error) {
         store_.keep_failure(point.hash(), error.what());

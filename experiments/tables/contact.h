@@ -82,7 +82,7 @@ inline constexpr std::pair range_of<PlaneProbe>{PlaneProbe::apex, PlaneProbe::he
 
 struct PlaneProbeRow {
   TABLE("plane-probes");
-  COLUMN(PlaneProbe, probe, "probe", "1", "what is measured");
+  COLUMN(PlaneProbe, probe, "probe", "1", "measured quantity");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");

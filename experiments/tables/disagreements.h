@@ -14,7 +14,7 @@ struct DisagreementRow {
   COLUMN(std::string, threads, "threads", "1", "upstream reports that it explains; empty if none is known");
   COLUMN(std::string, state, "state", "1",
          "explained, reproduced, not reproduced or not asked, according to the criterion");
-  COLUMN(std::string, criterion, "criterion", "1", "condition on the curves for that state");
+  COLUMN(std::string, criterion, "criterion", "1", "condition on the curves that decides on the state");
   COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 

@@ -12,7 +12,7 @@ struct TruthKind {
 };
 template <>
 struct CellOf<TruthKind> {
-  static constexpr std::string_view of_contact_rule = ", in-house contact rule";
+  static constexpr std::string_view of_contact_rule = ", mysim's contact rule";
   static Cell write(const TruthKind& kind) {
     return std::string(name_of(kind.tier)).append(kind.of_contact_rule ? of_contact_rule : "");
   }
@@ -52,7 +52,7 @@ struct EngineRow {
          "time up to which the truth is known, if that is not the end");
   COLUMN(OptionalNumber, error, "largest error", "m", "largest RMS distance from the truth in the window");
   COLUMN(OptionalNumber, contact_difference, "largest difference from converged contact", "m",
-         "largest RMS distance in the window from the limit of the in-house contact rule");
+         "largest RMS distance in the window from the limit of mysim's contact rule");
   COLUMN(OptionalNumber, difference, "largest difference", "m",
          "largest RMS distance from mysim/symplectic-euler in the window");
   COLUMN(OptionalNumber, centre_difference, "largest difference of centres", "m",
@@ -82,7 +82,7 @@ struct EngineTimeRow {
   COLUMN(double, t, "t", "s", "time of the sample");
   COLUMN(OptionalNumber, error, "error", "m", "RMS distance from the truth");
   COLUMN(OptionalNumber, contact_difference, "difference from converged contact", "m",
-         "RMS distance from the limit of the in-house contact rule");
+         "RMS distance from the limit of mysim's contact rule");
   COLUMN(OptionalNumber, difference, "difference", "m", "RMS distance from mysim/symplectic-euler");
   COLUMN(OptionalNumber, centre_difference, "difference of centres", "m",
          "distance of the centre of mass from that of mysim/symplectic-euler");

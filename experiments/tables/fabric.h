@@ -7,7 +7,7 @@ namespace crosscheck {
 /// A strip clamped horizontally at one end, at rest.
 struct CantileverRow {
   TABLE("fabric-cantilevers");
-  COLUMN(std::string, load, "load", "1", "what bends the strip");
+  COLUMN(std::string, load, "load", "1", "load that bends the strip");
   COLUMN(long, cells, "cells", "1", "cells along the strip");
   COLUMN(double, gamma, "gamma", "1", "weight per area x length^3 / rigidity");
   COLUMN(double, tip_load, "tip load", "1", "load on the last particles per width x length^2 / rigidity");

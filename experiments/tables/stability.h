@@ -43,11 +43,11 @@ struct LimitRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method");
   COLUMN(LimitState, state, "state", "1", "state about which the limit is determined");
-  COLUMN(PredictionKind, prediction, "prediction", "1", "statement of linear theory about the steps");
+  COLUMN(PredictionKind, prediction, "prediction", "1", "kind of limit that linear theory predicts");
   COLUMN(OptionalNumber, predicted, "predicted limit", "s", "critical time step by linear theory");
   COLUMN(OptionalNumber, omega, "binding omega", "rad/s", "angular frequency of the mode that sets this limit");
   COLUMN(OptionalNumber, gamma, "binding gamma", "1/s", "damping rate of that mode");
-  COLUMN(MeasuredLimit::Kind, measurement, "measurement", "1", "statement of the runs about the steps");
+  COLUMN(MeasuredLimit::Kind, measurement, "measurement", "1", "kind of limit that the runs show");
   COLUMN(OptionalNumber, measured, "measured limit", "s", "geometric mean of held and failed");
   COLUMN(OptionalNumber, held, "held", "s", "largest step at which a run held");
   COLUMN(OptionalNumber, failed, "failed", "s", "smallest step at which a run failed");

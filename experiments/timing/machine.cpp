@@ -99,7 +99,7 @@ MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
     shared.left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
   if (!held_ && !shared.exhausted.exchange(true))
-    fmt::print(stderr, "crosscheck: {} is still held; times are measured beside other work and marked\n", file);
+    fmt::print(stderr, "crosscheck: {} is still held; times are measured during other work and marked\n", file);
 }
 
 MachineLock::~MachineLock() {

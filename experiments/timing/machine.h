@@ -34,7 +34,7 @@ class LockPatience {
   std::shared_ptr<Shared> shared_;
 };
 
-constexpr auto timed_beside_other_work = "some times were measured beside other work and may be disturbed";
+constexpr auto timed_beside_other_work = "some times were measured during other work and may be disturbed";
 
 class MachineLock {
  public:

@@ -22,8 +22,8 @@ TranslatedRun run_translated(const Scene& source, const Translation& translation
     beside = truth->trajectory;
     result.bar = truth->error_bar;
     result.until = std::min(result.until, truth->until);
-    result.beside = truth->under_contact_rule ? "the in-house contact rule, converged"
-                                              : fmt::format("{} truth", name_of(truth->tier));
+    result.beside = truth->under_contact_rule ? "the limit of mysim's contact rule"
+                                              : fmt::format("the {} reference solution", name_of(truth->tier));
   } else {
     const Method representative = find_method(std::string(subject().representative));
     Recorder own;

@@ -75,7 +75,7 @@ TEST(Ablations, SaysWhyItHasNoReference) {
     reference_solution_of(scene, 1e-3);
     FAIL();
   } catch (const Unsupported& why) {
-    EXPECT_STREQ(why.what(), "no truth is known for it");
+    EXPECT_STREQ(why.what(), "no reference solution is known for it");
   }
 }
 

@@ -344,7 +344,7 @@ TEST(Advise, SaysWhyItCannotPromise) {
     return "";
   };
   const Scene spring = load_scene("spring");
-  EXPECT_TRUE(contains(why(spring, 1e-17, "rk4"), "the truth is known to"));
+  EXPECT_TRUE(contains(why(spring, 1e-17, "rk4"), "the reference solution is known to"));
   EXPECT_TRUE(contains(why(spring, 10, "rk4"), "nothing in the scene moves by more than"));
   EXPECT_TRUE(contains(why(load_scene("circle"), 1e-3, "leapfrog"), "none of the methods tried comes within"));
   EXPECT_EQ(why(spring, 1e-3, "rk4"), "");

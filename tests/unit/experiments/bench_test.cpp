@@ -222,7 +222,7 @@ TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmall) {
   const Measured measured(measure_threads, ThreadsOptions{{64, 96}, hasty_turns});
   if (measured.rows().empty()) GTEST_SKIP() << "this machine has a single core: " << measured.notes().at(0);
   ASSERT_EQ(measured.rows().size(), 2u);
-  EXPECT_EQ(measured.rows()[0].variant, "too small for a second");
+  EXPECT_EQ(measured.rows()[0].variant, "too small for a second thread");
   EXPECT_EQ(measured.rows()[1].variant, "");
   for (const BenchRow& row : measured.rows()) {
     EXPECT_GT(*row.share, 0);

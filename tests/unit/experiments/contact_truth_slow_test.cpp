@@ -170,7 +170,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(summary.at(i, "largest error")));
     EXPECT_GT(std::get<double>(summary.at(i, "largest difference from converged contact")), 0);
     EXPECT_NEAR(std::get<double>(summary.at(i, "truth until")), 0.36, 1e-9);  // first touch at 0.06 s
-    EXPECT_EQ(std::get<std::string>(summary.at(i, "truth tier")), "converged, in-house contact rule");
+    EXPECT_EQ(std::get<std::string>(summary.at(i, "truth tier")), "converged, mysim's contact rule");
   }
   const Table& rows = *result.table("cloth-carried-engines");
   for (size_t i = 0; i < rows.rows.size(); ++i) {

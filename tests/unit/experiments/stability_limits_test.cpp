@@ -303,7 +303,7 @@ TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
     const BaseState base = base_state_of(scene);
     EXPECT_TRUE(base.saddle);
     ASSERT_TRUE(base.at_rest);
-    EXPECT_TRUE(contains(saddle_note(base), "is a saddle, not a rest"));
+    EXPECT_TRUE(contains(saddle_note(base), "is an unstable saddle"));
     const Eigen::VectorXd squares = symmetric_eigenvalues(Eigen::MatrixXd(base.spectrum.system.k));
     EXPECT_GT(squares[0], -1e-8 * squares[squares.size() - 1]);
     // the measured limit agrees with theory at the neighbouring equilibrium

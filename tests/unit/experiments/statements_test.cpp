@@ -58,7 +58,7 @@ TEST(Statements, OrderSaysWhyItLeavesOutLargeScenes) {
   ASSERT_EQ(tables.notes.size(), 1u);
   // speed-accuracy measures the orders of four rules on this scene: 1.00, 2.02, 4.14 and 4.02
   EXPECT_EQ(tables.notes[0],
-            "order leaves out cloth-hang: its runs would cost much; speed-accuracy has its error over the step");
+            "order leaves out cloth-hang: its runs would take too long; speed-accuracy shows its error at each step");
 }
 
 TEST(Statements, ATruthIsSaidToBeFoundByWhoFoundIt) {

@@ -160,7 +160,7 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   const TableSet all = whole(points);
   EXPECT_TRUE(missing.empty());
   ASSERT_EQ(all.notes.size(), 2u);
-  EXPECT_TRUE(contains(all.notes[0], "p2 was timed beside other work"));
+  EXPECT_TRUE(contains(all.notes[0], "p2 was timed during other work"));
   // All locks share one patience. Acquiring a free lock needs no patience.
   LockPatience little(0.1), none(0);
   EXPECT_FALSE(MachineLock(MachineLock::Mode::shared, little).held());

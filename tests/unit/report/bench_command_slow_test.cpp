@@ -59,7 +59,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   std::vector<std::string> words{"odeint/rk4", "other model",      "two stiffnesses",        "Bullet's force",
                                  "baseline",   "springs, 40 × 40", "sweep, fastest, double", "60 steps a second"};
   // a machine with a single core does not measure two threads
-  if (json["notes"].dump().find("may use one core") == std::string::npos)
+  if (json["notes"].dump().find("may use only one core") == std::string::npos)
     words.insert(words.end(), {"two threads, 64 × 64", "too small for a second", "% of two cores"});
   const JsonField table = json["tables"]["bench-cost"];
   const std::string csv = rows(folder_ / "bench-cost.csv");

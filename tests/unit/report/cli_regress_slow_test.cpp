@@ -209,7 +209,7 @@ TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   write("mine/projectile.csv", text);
   const ProgramResult rot = regress({"projectile"});
   EXPECT_EQ(rot.status, 1);
-  EXPECT_NE(rot.out.find("gone       projectile, mysim/forgotten: all: nobody asks for it any more"), std::string::npos)
+  EXPECT_NE(rot.out.find("gone       projectile, mysim/forgotten: all: no longer measured"), std::string::npos)
       << rot.out;
   EXPECT_EQ(regress({"projectile", "--method", "leapfrog"}).status, 0) << "the requested part exists";
   ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "it was taken out"}).status, 0);
