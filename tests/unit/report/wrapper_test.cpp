@@ -146,7 +146,7 @@ TEST_F(Wrapper, NamesACacheFolderThatCannotBeMade) {
   fs::permissions(folder_ / "home", fs::perms(0555));
   const ProgramResult closed = start_as_other({in_tree("crosscheck"), "list"});
   EXPECT_EQ(closed.status, 2);
-  EXPECT_NE(closed.err.find("release cannot be made; expected HOME or XDG_CACHE_HOME"), std::string::npos)
+  EXPECT_NE(closed.err.find("release cannot be created; expected HOME or XDG_CACHE_HOME"), std::string::npos)
       << closed.err;
   const ProgramResult none = start_as_other({"env", "-u", "HOME", in_tree("crosscheck"), "list"});
   EXPECT_EQ(none.status, 2);
