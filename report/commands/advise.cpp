@@ -91,8 +91,8 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
   f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
   f.floor = {fmt::format("tolerance: {}", nice_length(a.tolerance)), a.tolerance};
   f.finding = fmt::format("{} meets {} at the least cost.", how_of(chosen), nice_length(a.tolerance));
-  f.caption = fmt::format("Scene {}, until {:.3g} s; truth: {}, error bar {} ({}); commit {}.", a.scene.name, a.until,
-                          a.under_contact_rule ? "limit of the in-house contact rule" : name_of(a.tier),
+  f.caption = fmt::format("Scene {}, until {:.3g} s; reference: {}, error bar {} ({}); commit {}.", a.scene.name,
+                          a.until, a.under_contact_rule ? "limit of mysim's contact rule" : name_of(a.tier),
                           nice_length(a.error_bar), a.truth, commit);
   return f;
 }
@@ -181,9 +181,9 @@ void print(const Advice& a) {
   fmt::print("{} to {} until {:.3g} s\n", a.scene.name, nice_length(a.tolerance), a.until);
   fmt::print("  model     {}\n", a.left_out.empty() ? "full" : t.model);
   fmt::print("  method    {}\n", how_of(t));
-  fmt::print("  {} {} (largest RMS over time; truth: {}, error bar {})\n",
+  fmt::print("  {} {} (largest RMS over time; reference: {}, error bar {})\n",
              a.under_contact_rule ? "differs  " : "error    ", nice_length(a.checked),
-             a.under_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.error_bar));
+             a.under_contact_rule ? "mysim's contact rule" : name_of(a.tier), nice_length(a.error_bar));
   fmt::print("  margin    stability limit: {}\n", margin_text(t));
   if (t.relative == 0) fmt::print("  bound by  {}\n", bound_text(a.bound));
   fmt::print("  cost      {} force evaluations x {} springs; {:.2g} s of CPU time here\n", t.outcome.evaluations,
@@ -203,7 +203,7 @@ void print(const Advice& a) {
 }
 
 void print(const FitResult& fitted) {
-  fmt::print("{} fitted to its wishes\n", fitted.scene.name);
+  fmt::print("{}: values fitted to the wishes\n", fitted.scene.name);
   for (const Unknown& u : fitted.unknowns) fmt::print("  {} = {:.6g} {}\n", u.name, u.value, u.unit);
   print(fitted.wishes);
 }
@@ -237,7 +237,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
     // memory for two runs: the truth, and the trial that is compared with it
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
-    progress.begin(fmt::format("truth of {}", scene->name));
+    progress.begin(fmt::format("reference solution of {}", scene->name));
     for (Method& method : methods) method = with_progress(method, progress);
     const Advice a = advise(*scene, tolerance, std::move(methods));
     progress.done();
@@ -266,7 +266,7 @@ int advise_command(const AdviseOptions& options) {
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);
     folder.finish();
-    fmt::print(stderr, "crosscheck: cannot promise on {}: {}\n", options.scene, why.what());
+    fmt::print(stderr, "crosscheck: no guaranteed advice for {}: {}\n", options.scene, why.what());
     return 1;
   }
 }

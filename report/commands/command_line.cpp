@@ -43,7 +43,7 @@ void require_lists_in_one_word(std::span<const std::string> words) {
     if ((words[i - 1] == "--methods" || words[i - 1] == "--method") && words[i].ends_with(",")) {
       std::string list = words[i];
       for (size_t j = i + 1; j < words.size() && list.ends_with(","); ++j) list += words[j];
-      throw InputError(fmt::format("{0}: expected a list without blanks; did you mean `{0} {1}`?", words[i - 1],
+      throw InputError(fmt::format("{0}: expected a list without spaces; did you mean `{0} {1}`?", words[i - 1],
                                    list.substr(0, 100)));
     }
 }

@@ -108,7 +108,7 @@ int compare_command(const CompareOptions& options) {
                           out.evaluations, out.degenerate_springs});
     write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));
   }
-  progress.begin(fmt::format("truth and certificates of {}", scene.name));
+  progress.begin(fmt::format("reference solution and certificates of {}", scene.name));
   engines_on(request, scene, answers, result);
   progress.done();
   for (const Table& table : result.tables) {
@@ -131,13 +131,13 @@ int compare_command(const CompareOptions& options) {
 
   const std::vector<EngineRow> runs = rows_of<EngineRow>(result);
   const std::optional<TruthKind> tier = runs.at(0).truth_kind;
-  fmt::print(
-      "\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier ? std::get<std::string>(to_cell(*tier)) : "none",
-      tier
-          ? fmt::format(", error bar {} m{} ({})", shown(runs[0].truth_bar),
-                        runs[0].truth_until ? fmt::format(" until {:.3g} s", *runs[0].truth_until) : "", *runs[0].truth)
-          : "");
-  // scenes with contact have no truth: a distance from the converged in-house rule is not an error
+  fmt::print("\n{}: {}\nreference solution: {}{}\n\n", scene.name, scene.question,
+             tier ? std::get<std::string>(to_cell(*tier)) : "none",
+             tier ? fmt::format(", error bar {} m{} ({})", shown(runs[0].truth_bar),
+                                runs[0].truth_until ? fmt::format(" until {:.3g} s", *runs[0].truth_until) : "",
+                                *runs[0].truth)
+                  : "");
+  // with contact there is no truth: a distance from the limit of mysim's rule is not an error
   const bool of_rule = tier && tier->of_contact_rule;
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", of_rule ? "rule/m" : "error/m",
              "diff./m", "centres/m", "step/s", "until/s");
@@ -159,7 +159,7 @@ int compare_command(const CompareOptions& options) {
       fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
   }
   fmt::print("\n{}; diff.: from {}; largest RMS over the particles up to {:.3g} s\n",
-             of_rule ? "rule: difference from mysim's contact rule, converged" : "error: from the truth",
+             of_rule ? "rule: from the limit of mysim's contact rule" : "error: from the reference solution",
              request.reference.empty() ? subject().representative : request.reference, scene.window);
   for (const Method& method : methods)
     if (method.identify) {

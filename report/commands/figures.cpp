@@ -221,7 +221,7 @@ int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Proven
   folder.finish();
   if (drawn.empty()) problems.tell("there is nothing to draw");
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{}, {:g} cm wide, letters of {:g} pt\n{}\n", counted(drawn.size(), "figure"), size.width, size.font,
+  fmt::print("{}, {:g} cm wide, font size {:g} pt\n{}\n", counted(drawn.size(), "figure"), size.width, size.font,
              (given.out / "figures.json").string());
   return problems.any() ? 1 : 0;
 }

@@ -67,7 +67,7 @@ int doctor_command() {
   line("Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices", "");
   line("Bullet", CROSSCHECK_BULLET_VERSION,
        "the engine that mysim is compared with (double precision; single precision in a separate program)", "");
-  line("odeint", odeint_version(), "an independent integrator, from Boost: second route of the truth", "");
+  line("odeint", odeint_version(), "an independent integrator from Boost, which checks reference solutions", "");
   line("SUNDIALS", sundials_version().value_or("absent"), "optional: a better integrator, replaces odeint",
        sundials_version() ? "" : "; apt-get install libsundials-dev, then rebuild");
   line(CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display\n", "");

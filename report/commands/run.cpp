@@ -93,7 +93,7 @@ int run_command(const RunOptions& options) {
     return count > 0 || !outside ? fmt::format("{} {}", count, what) : fmt::format("{} (number not reported)", what);
   };
   fmt::print("  {} of {:.6g} s{}, {}, {}, {} frames\n", counted(out.steps, "steps"), out.step,
-             adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "",
+             adaptive ? fmt::format(" on average (relative tolerance {:.3g})", out.tolerance) : "",
              counted(out.evaluations, "force evaluations"),
              out.cpu_seconds > 0 || !outside
                  ? fmt::format("{:.3g} s of CPU time", out.cpu_seconds)
@@ -101,8 +101,8 @@ int run_command(const RunOptions& options) {
              frames.times().size());
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.degenerate_springs > 0)
-    fmt::print("  springs had zero length {} times, and no force then\n", out.degenerate_springs);
-  if (meshes) fmt::print("  {} meshes: meshes/frame-0001.{} and on\n", meshes->frames(), options.meshes);
+    fmt::print("  springs had zero length, and thus no force, {} times\n", out.degenerate_springs);
+  if (meshes) fmt::print("  {} meshes, from meshes/frame-0001.{} on\n", meshes->frames(), options.meshes);
   fmt::print("  {}\n", options.out.string());
   return 0;
 }

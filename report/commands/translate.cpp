@@ -34,7 +34,7 @@ void print(const TranslatedNumber& number) {
                                        : "");
   fmt::print("    holds {}\n", rule.holds);
   if (!number.here.empty()) fmt::print("    {}\n", number.here);
-  fmt::print("    back within {:.2g}: {}\n", number.stated, range(number.back, unit_of(rule.quantity)));
+  fmt::print("    converted back (within {:.2g}): {}\n", number.stated, range(number.back, unit_of(rule.quantity)));
 }
 
 void print(const TranslatedRun& run) {
@@ -100,7 +100,7 @@ int to_engine(const TranslateOptions& options) {
   if (method) {
     require_resources_to_keep({find_method(scene.method), *method}, scene, run);
     Progress progress(1);
-    progress.begin(fmt::format("running {} and the truth of {}", method->name, scene.name));
+    progress.begin(fmt::format("running {}, and the reference solution of {}", method->name, scene.name));
     measured = run_translated(scene, t, *method);
     progress.done();
   }
@@ -139,7 +139,7 @@ int to_engine(const TranslateOptions& options) {
     if (measured)
       print(*measured);
     else
-      fmt::print("\nnot measured here: this build does not run {}; --run exec:PROGRAM measures it by a program\n",
+      fmt::print("\nnot measured here: this build does not run {}; --run exec:PROGRAM measures it with a program\n",
                  target.numbers->title);
     if (stand_in)
       fmt::print("  {} follows the same rule with the same numbers in double precision; {} itself was not run\n",
@@ -191,7 +191,7 @@ int translate_command(const TranslateOptions& options) {
   if (options.to.empty() == options.from.empty())
     throw InputError("translate: expected either --to METHOD or --from METHOD FILE");
   if (!options.from.empty() && !options.run.empty())
-    throw InputError("--run: goes with --to: what comes back is a scene, which `run` runs");
+    throw InputError("--run: expected with --to only; --from yields a scene, which `run` runs");
   return options.to.empty() ? from_engine(options) : to_engine(options);
 }
 

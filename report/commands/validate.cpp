@@ -56,7 +56,7 @@ void add_pieces(SceneSummary& summary) {
     if (piece[a] != piece[b]) {
       summary.warnings.push_back(
           fmt::format("particles {} and {} start at the same place, but no spring joins their pieces{}", a, b,
-                      held[piece[a]] && held[piece[b]] ? "" : ", one of which no pin holds"));
+                      held[piece[a]] && held[piece[b]] ? "" : ", one of which has no pin"));
       break;
     }
   summary.mass_per_area = mass_per_area_of(summary.scene);
@@ -85,7 +85,7 @@ SceneSummary summary_of(const std::string& given) {
     if (const Stepper* own = stepper_of(method); own && own->name == rule.name && scene.step > limit)
       warn(limit > 0 ? fmt::format("the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run will blow up",
                                    scene.step, rule.name, limit)
-                     : fmt::format("{} is stable at no step without drag: its energy grows", rule.name));
+                     : fmt::format("{} has no stable step without drag: its energy grows", rule.name));
   }
   summary.bending = bending_length_of(model, scene.start);
   if (summary.bending) warn(coarse_grid_warning(*summary.bending));
@@ -105,7 +105,7 @@ void print(const SceneSummary& s) {
   const Scene& scene = s.scene;
   const Model& model = scene.model;
   const auto line = [](const char* name, const std::string& text) { fmt::print("  {:<16} {}\n", name, text); };
-  fmt::print("{}: a good scene\n", s.given);
+  fmt::print("{}: a valid scene\n", s.given);
   line("particles", fmt::format("{}, {} of them pinned{}", model.particles.size(), model.particles.pins.size(),
                                 model.particles.move ? " and moved" : ""));
   std::vector<std::string> families, terms;
@@ -120,7 +120,7 @@ void print(const SceneSummary& s) {
                      least == most ? fmt::format("{:.6g}", most) : fmt::format("{:.6g} to {:.6g}", least, most),
                      mass.sum(), s.mass_per_area ? fmt::format(", {:.4g} kg/m^2 of triangles", *s.mass_per_area) : ""));
   }
-  line("pieces", fmt::format("{}, {} of them held by no pin", s.pieces, s.free_pieces));
+  line("pieces", fmt::format("{}, {} of them without a pin", s.pieces, s.free_pieces));
   if (!s.coincident.empty())
     line("coincident", fmt::format("{} pair{} of particles at the same place, the first {} and {}", s.coincident.size(),
                                    s.coincident.size() > 1 ? "s" : "", s.coincident[0].first, s.coincident[0].second));
@@ -132,22 +132,23 @@ void print(const SceneSummary& s) {
     if (count > 0) line(name, std::to_string(count));
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term)) terms.emplace_back(name_of(term));
-  line("ingredients", terms.empty() ? model.find<Springs>() ? "springs alone" : "none: nothing acts on the particles"
+  line("ingredients", terms.empty() ? model.find<Springs>() ? "springs only" : "none: nothing acts on the particles"
                                     : fmt::format("{}", fmt::join(terms, ", ")));
   line("largest omega", model.first_order() ? "none: a first-order scene"
-                        : s.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
-                                                    "period of {:.3g} s",
-                                                    s.omega, 2 * std::numbers::pi / s.omega)
-                                      : "0: nothing vibrates");
+                        : s.omega > 0
+                            ? fmt::format("{:.4g} rad/s (period {:.3g} s), at the initial stiffness with fixed pins",
+                                          s.omega, 2 * std::numbers::pi / s.omega)
+                            : "0: nothing vibrates");
   if (s.critical.empty())
     line("critical steps", s.gamma ? "none: nothing vibrates" : "unknown: the particles' drag rates differ");
   for (const char* title = "critical steps"; const auto& [name, limit] : s.critical)
     line(std::exchange(title, ""),
-         fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "stable at no step without drag"));
+         fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "no stable step without drag"));
   if (!s.critical.empty())
-    line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
-                         *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
-                         length_of_term<Dashpots>(model) > 0 ? "dashpots are ignored, and would shorten them; " : ""));
+    line("",
+         fmt::format("from omega{}; {}omega changes as springs stretch",
+                     *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
+                     length_of_term<Dashpots>(model) > 0 ? "dashpots, which would shorten them, are ignored; " : ""));
   if (s.bending) line("bending", sentence_of(*s.bending));
   if (s.net.moduli)
     line("moduli", fmt::format("{}", fmt::join(sentences_of(*s.net.moduli), fmt::format("\n{:19}", ""))));
@@ -160,7 +161,7 @@ void print(const SceneSummary& s) {
                                   scene.samples));
   line("  memory", fmt::format("about {}; {} are free", format_bytes(s.demand.memory), format_bytes(free_memory())));
   line("  disk", fmt::format("{} of frames", format_bytes(s.demand.frames)));
-  line("  time", fmt::format("about {:.2g} s of CPU time, good to a factor of 3", s.demand.seconds));
+  line("  time", fmt::format("about {:.2g} s of CPU time, accurate to a factor of 3", s.demand.seconds));
   for (const std::string& warning : s.warnings) line("warning", warning);
 }
 

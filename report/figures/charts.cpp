@@ -197,7 +197,7 @@ std::string caption_of(const Scene& scene, const std::string& commit) {
 }
 
 std::string tier_of(const SceneData& facts) {
-  return fmt::format("the {} truth, error bar {} ({})", facts.tier, nice_length(facts.error_bar), facts.truth);
+  return fmt::format("the {} solution, error bar {} ({})", facts.tier, nice_length(facts.error_bar), facts.truth);
 }
 
 std::string another_engine(const SceneData& facts) {

@@ -60,7 +60,7 @@ std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
   if (const size_t agreeing = seen - other.size(); agreeing > 0)
     text = fmt::format("The measured order of {} agrees with the declared one within {:.2g}.",
                        counted(agreeing, "method"), off);
-  if (!other.empty()) text += fmt::format("{}Another order: {}.", text.empty() ? "" : " ", joined(other));
+  if (!other.empty()) text += fmt::format("{}Different order: {}.", text.empty() ? "" : " ", joined(other));
   return text;
 }
 
@@ -103,14 +103,14 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       }
     }
     if (f.curves.empty() && f.failures.empty()) continue;
-    f.floor = {"error bar of the truth", error_bar};
+    f.floor = {"error bar of the reference", error_bar};
     f.caption = caption_of(scene, input.commit);
     SceneData truth;  // built from this table, because other experiments may not have run
     truth.tier = name_of(rows[0].truth_tier), truth.truth = rows[0].truth, truth.error_bar = error_bar;
     f.tier = tier_of(truth);
     f.finding = slopes_sentence(slopes);
     if (!elsewhere.empty())
-      f.finding += fmt::format(" With shorter steps {} {} own finest run, not the truth: {} to another solution.",
+      f.finding += fmt::format(" With shorter steps {} {} own finest run, not the reference: {} to another solution.",
                                joined(elsewhere), elsewhere.size() == 1 ? "approaches its" : "approach their",
                                elsewhere.size() == 1 ? "it converges" : "they converge");
     charts.push_back(described("{scene}-order", std::move(f), "scene"_a = scene.name));

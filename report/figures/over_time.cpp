@@ -56,7 +56,7 @@ std::vector<Chart> error_charts_of(const ChartInput& input, const Scene& scene, 
                             curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
-  f.floor = {"error bar of the truth", facts.error_bar};
+  f.floor = {"error bar of the reference", facts.error_bar};
   f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), end,
                           failed == 0 ? "" : fmt::format("; failed: {}", failed));
   if (!cut.empty())
@@ -186,7 +186,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
     if (!m.supported()) continue;
     // omit the sticky sphere: it stops all particles in contact, and its losses would dwarf all others
     if (!m.ok() || m.method.ends_with("+sticky")) {
-      left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
+      left_out.push_back(m.ok() ? m.method + " (it stops everything that touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", without_folders(m.method), m.failure(), m.end));
       continue;
     }

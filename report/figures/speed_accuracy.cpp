@@ -35,7 +35,7 @@ struct SceneRuns {
   }
   std::string measure() const {
     return !error_bar     ? "difference from own finest run"
-           : difference() ? "difference from the in-house contact rule"
+           : difference() ? "difference from mysim's contact rule"
                           : "error";
   }
   const SpeedAccuracyCostRow* timing(const Row& run) const {
@@ -187,7 +187,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
     add_recommendation(f, s, time, input);
   }
   if (s.error_bar)
-    f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth",
+    f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the reference",
                *s.error_bar / unit};
   f.finding = fmt::format("{}{} runs of {} methods; {} failed.",
                           best.empty() ? "" : fmt::format("Pareto front: {}. ", fmt::join(best, ", ")), good + failed,
@@ -202,9 +202,8 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
-  f.tier = s.error_bar ? fmt::format("{}{}, error bar {}", s.difference() ? "" : "the truth: ", s.truth,
-                                     nice_length(*s.error_bar))
-                       : "each method's own finest run, as no truth is known";
+  f.tier = s.error_bar ? fmt::format("{}, error bar {}", s.truth, nice_length(*s.error_bar))
+                       : "each method's own finest run, because no reference solution is known";
   return described(time ? "{scene}-speed-accuracy-cost" : "{scene}-speed-accuracy", std::move(f), "scene"_a = s.scene,
                    "motion"_a = nice_length(s.motion), "drawn"_a = drawn,
                    "builds"_a = builds_text({methods.begin(), methods.end()}), "commit"_a = input.commit);

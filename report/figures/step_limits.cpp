@@ -54,7 +54,7 @@ std::string measured_text(const LimitRow& row) {
     case MeasuredLimit::refused_above:
       return "> " + milliseconds(row.held);
     case MeasuredLimit::unsupported:
-      return "cannot";
+      return "n/a";
   }
   return "";
 }

@@ -10,7 +10,7 @@ namespace crosscheck {
 std::string failure_class(std::string_view verdict) {
   static constexpr std::pair<std::string_view, const char*> table[] = {
       {"stretch", "overstretched"}, {"solver", "solver gave up"}, {"frozen", "froze"},
-      {"timeout", "out of time"},   {"crash", "program failed"},  {"unsupported", "cannot"}};
+      {"timeout", "out of time"},   {"crash", "program failed"},  {"unsupported", "unsupported"}};
   for (const auto& [name, word] : table)
     if (verdict == name) return word;
   return "blew up";
@@ -106,7 +106,7 @@ std::string step_text(double seconds) {
 std::string own_step_text(const Scene& scene) {
   const double taken = time_grid(default_run(scene)).h;
   const std::string requested = step_text(scene.step), text = step_text(taken);
-  return text == requested ? requested : fmt::format("{} (of the {} asked for)", text, requested);
+  return text == requested ? requested : fmt::format("{} (requested: {})", text, requested);
 }
 
 std::string setting_text(std::string_view setting, double value) {

@@ -14,7 +14,7 @@
 
 namespace crosscheck {
 
-/// Failures in words: "blew up", "solver gave up", "froze", "cannot".
+/// Failures in words: "blew up", "solver gave up", "froze", "unsupported".
 std::string failure_class(std::string_view verdict);
 inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
 
@@ -40,7 +40,7 @@ struct SceneData {
   double error_bar = 0;                       // m
   std::string truth;                          // derivation of the truth in one sentence
   std::optional<double> truth_until;          // s, if the truth ends early
-  // s; set if the truth is the converged in-house contact rule: then `tier` is empty, and `error_bar`, `truth` and
+  // s; set if the truth is the converged contact rule of mysim: then `tier` is empty, and `error_bar`, `truth` and
   // `truth_until` describe that rule
   std::optional<double> contact_until;
   std::vector<MethodData> methods;

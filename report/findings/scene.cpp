@@ -81,7 +81,7 @@ void failures(const SceneData& data, Findings& out) {
            {"limit", first->step_limit && *first->step_limit < first->step ? step_text(*first->step_limit) : ""}}});
 }
 
-/// Differences from the converged in-house contact rule. They are not called errors, because other contact rules
+/// Differences from the limit of mysim's contact rule. They are not called errors, because other contact rules
 /// converge to other motions.
 void converged_contact(const SceneData& data, Findings& out) {
   if (!data.contact_until) return;

@@ -11,7 +11,7 @@ namespace crosscheck {
 
 struct StageTruth {
   std::string name;            // "truth, exact", "converged contact rule"
-  bool rule = false;           // limit of the in-house contact rule: distances from it are not errors
+  bool rule = false;           // limit of mysim's contact rule: distances from it are not errors
   double bar = 0, motion = 0;  // m: error bar of the truth; size of the motion, which scales errors
 };
 

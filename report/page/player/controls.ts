@@ -147,7 +147,7 @@ export class Controls {
     this.slider =
         make('input', {type: 'range', min: 0, max: 300, step: 1, value: 0, 'aria-label': `time in ${scene.scene}`});
     const [speedLabel, speed] = dropdown('speed', [0.1, 0.25, 0.5, 1, 2].map(v => [String(v), `${v} ×`]), '1');
-    const colours = [['plain', 'engine'], ['stretch', 'stretch'], ['distance', 'distance to the truth']].filter(
+    const colours = [['plain', 'engine'], ['stretch', 'stretch'], ['distance', 'distance from the truth']].filter(
         ([name]) => name === 'plain' || (name === 'stretch' ? scene.springs.rests.count : runOf(scene, 'truth')));
     const [colourLabel, colour] = dropdown('colour by', colours, look.colour);
     const [springLabel, springs] = check('springs', look.springs);

@@ -239,7 +239,7 @@ export class MotionPlayer extends HTMLElement {
             title: scene.truth?.rule ? 'difference from the contact limit' : 'RMS error',
             unit: 'm',
             series: both('error').filter(known),
-            none: 'No truth is known here.'
+            none: 'No reference solution is known here.'
           },
           {
             title: 'kinetic energy',

@@ -128,7 +128,7 @@ class Engine:
         path = Path(path).absolute()
         task = pickle.dumps((encoded(self.step, {}), self.terms, self.name))
         if "," in str(path):
-            raise Error(f"engine {self.name}: a path holds no comma, got {path}")
+            raise Error(f"engine {self.name}: expected a path without a comma, got {path}")
         text = program_text.format(python=sys.executable, paths=[str(Path(__file__).resolve().parents[1]), *sys.path],
                                    task=task, name=self.name)
         part = path.with_name(path.name + ".part")
@@ -185,10 +185,10 @@ def encoded(value, seen):
     try:
         dump = pickle.dumps(value)
     except Exception as error:
-        raise Error(f"engine: what the function uses cannot be handed over: {error}") from None
+        raise Error(f"engine: an object that the function uses cannot be passed on: {error}") from None
     if b"__main__" in dump:
-        raise Error(f"engine: {value!r} is of a class of the notebook, which cannot be handed over: "
-                    "put the class into a module, or hand over its numbers")
+        raise Error(f"engine: {value!r} is of a class of the notebook, which cannot be passed on: "
+                    "move the class into a module, or pass its numbers")
     return ("value", dump)
 
 
@@ -272,7 +272,7 @@ def run_scene(dump, scene_file, out):
     if lacking:
         raise Refused(f"{name} has no {', '.join(lacking)}")
     if task["first_order"]:
-        raise Refused(f"{name} takes scenes of the second order only")
+        raise Refused(f"{name} supports second-order scenes only")
     step, scene = decoded(step_task, {}), EngineScene(task)
     times, steps, speeds, seconds = run(name, step, scene)
     np.save(os.path.join(out, "trajectory.npy"), times)

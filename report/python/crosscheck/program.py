@@ -54,7 +54,7 @@ def call(words, answers=(0,)):
     lines = [line for line in (err.strip() or out.strip()).splitlines() if line.strip()]
     # progress messages are in brackets; an error message begins with the program's name
     complaints = [line for line in lines if line.startswith("crosscheck: ")] or lines
-    said = re.sub(r"^crosscheck: ", "", complaints[-1]) if complaints else "it said nothing"
+    said = re.sub(r"^crosscheck: ", "", complaints[-1]) if complaints else "no message"
     if process.returncode in answers:
         return process.returncode, out, said
     if process.returncode < 0 or process.returncode > 2:

@@ -57,7 +57,7 @@ bool fit_all() {
                    reached ? "" : " NOT REACHED");
       }
     } catch (const CannotGuarantee& why) {
-      fmt::print("{:44} cannot promise: {}\n", c.name, why.what());
+      fmt::print("{:44} no guarantee: {}\n", c.name, why.what());
     }
   return good;
 }
@@ -72,7 +72,7 @@ bool contact_trials(unsigned first, unsigned last, double part) {
                c.promised ? fmt::format(
                                 "{:.2g} m until {:.3g} s by {} at {:.2g} s: {:.2g} m after {} steps, bar {:.2g}{}",
                                 c.tolerance, c.until, c.method, c.step, c.error, c.steps, c.bar, c.met ? "" : " BROKEN")
-                          : "cannot promise: " + c.why);
+                          : "no guarantee: " + c.why);
     std::fflush(stdout);
   }
   fmt::print("{} scenes, {} promised, {} broken\n", last - first + 1, promised, broken);
@@ -98,7 +98,7 @@ int main(int count, char** words) {
       fmt::print("{:24} asked {:9.3g} m: {}\n", scene.name, c.tolerance,
                  c.promised ? fmt::format("{} errs by {:.3g} m, {}{}", c.method, c.error, c.met ? "met" : "NOT MET",
                                           c.cheaper ? ", SOMETHING CHEAPER MET IT" : "")
-                            : "cannot promise: " + c.why);
+                            : "no guarantee: " + c.why);
       std::fflush(stdout);
     }
   fmt::print("{} cases, {} promised, {} of them met ({:.1f} %), {} with something cheaper\n", cases, promised, met,

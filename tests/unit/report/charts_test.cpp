@@ -769,7 +769,7 @@ TEST(OrderCharts, AreDrawnFromTheirOwnTablesAlone) {
   EXPECT_EQ(a.curves.size(), 3u);
   EXPECT_EQ(drawing_of(a).script, drawing_of(b).script);
   EXPECT_EQ(a.tier, b.tier);
-  EXPECT_TRUE(contains(a.tier, "the exact truth, error bar ")) << a.tier;
+  EXPECT_TRUE(contains(a.tier, "the exact solution, error bar ")) << a.tier;
 }
 
 TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {

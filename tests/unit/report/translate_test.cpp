@@ -27,7 +27,7 @@ TEST_F(CliTranslate, ThereAndBackIsTheSameScene) {
   expect({"translate", "own.toml", "--to", "bullet/pbd", "--iterations", "4", "--step", "2e-3", "--out", "there.toml"},
          0,
          {"own in the numbers of bullet/pbd+n=4", "spring stiffness k: 90 to 150 N/m", "one for each spring",
-          "kLST = 1 - (1 + k h^2 / mu)^(-1/n)", "holds", "back within", "measured by bullet/pbd+n=4: error",
+          "kLST = 1 - (1 + k h^2 / mu)^(-1/n)", "holds", "converted back (within", "measured by bullet/pbd+n=4: error",
           "% of the motion", "error bar", "different law", "there.toml"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "there.toml", "--out", "back.toml"}, 0,
          {"spring stiffness k = 90 to 150 N/m; the scene had 90 to 150 N/m", "step h = 0.002 s, n = 4"});
@@ -84,7 +84,8 @@ TEST_F(CliTranslate, RefusalsNameWhatWasExpected) {
   write("bad.toml", "step = 0.01\nkLST = 1.5\n");
   expect({"translate", "own.toml"}, 2, {"translate: expected either --to METHOD or --from METHOD FILE"});
   expect({"translate", "own.toml", "--to", "jolt", "--from", "jolt", "bad.toml"}, 2, {"expected either --to"});
-  expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml", "--run", "rk4"}, 2, {"--run: goes with --to"});
+  expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml", "--run", "rk4"}, 2,
+         {"--run: expected with --to only"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml"}, 2, {"bad.toml:2: kLST: expected", "got 1.5"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "none.toml"}, 2, {"none.toml", "an engine's numbers"});
   expect({"translate", "own.toml", "--to", "odeint/rk4"}, 2,

@@ -81,7 +81,7 @@ TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
   write("seam.toml", seam + "[pins]\nparticles = [0]\n");
   const ProgramResult text = call({"validate", "seam.toml"});
   EXPECT_EQ(text.status, 0) << text.err;
-  for (const char* part : {"2, 1 of them held by no pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
+  for (const char* part : {"2, 1 of them without a pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
                            "particles 1 and 2 start at the same place, but no spring joins their pieces"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
   // the sheet has 0.06 kg on 0.2 m^2; the surface of a block is unrelated to the block's mass
@@ -116,7 +116,7 @@ TEST_F(CliValidate, LooksAtAllScenesAndTellsEveryFault) {
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 3) << result.err;
   for (const char* part : {"bad.toml:16: ", "did you mean 'chain'?", "no/such.toml: cannot be read"})
     EXPECT_NE(result.err.find(part), std::string::npos) << part << " in " << result.err;
-  EXPECT_NE(result.out.find("good.toml: a good scene"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("good.toml: a valid scene"), std::string::npos) << result.out;
 }
 
 TEST_F(CliValidate, WhatIsTooLargeIsRefusedBeforeItStarts) {

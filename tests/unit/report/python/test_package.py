@@ -128,7 +128,7 @@ class Runs(unittest.TestCase):
     def test_advice_that_cannot_be_given_says_why(self):
         a = crosscheck.advise("chain", tolerance=1e-30, methods="leapfrog")
         self.assertFalse(a)
-        self.assertRegex(a.reason, "cannot promise on chain: .* 1e-30 m is requested")
+        self.assertRegex(a.reason, "no guaranteed advice for chain: .* 1e-30 m is requested")
         self.assertIsNone(a.method)
 
     def test_the_program_is_looked_for_in_a_stated_order(self):
@@ -211,7 +211,7 @@ class Engines(unittest.TestCase):
             lock.read()
             return x, v
 
-        with self.assertRaisesRegex(crosscheck.Error, "cannot be handed over: .*TextIOWrapper"):
+        with self.assertRaisesRegex(crosscheck.Error, "cannot be passed on: .*TextIOWrapper"):
             locked.path
 
     def test_a_saved_engine_is_a_program(self):
