@@ -9,6 +9,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 

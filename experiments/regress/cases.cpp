@@ -10,6 +10,7 @@
 #include "experiments/scenes/ingredients.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 
 namespace crosscheck {

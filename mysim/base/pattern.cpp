@@ -1,5 +1,7 @@
 #include "mysim/base/pattern.h"
 
+#include <fnmatch.h>
+
 #include <regex>
 
 namespace crosscheck {
@@ -27,6 +29,10 @@ bool Pattern::is_in(const std::string& text) const {
 
 std::string Pattern::replaced_in(const std::string& text, const std::string& by) const {
   return text.size() > longest ? text : std::regex_replace(text, compiled_->regex, by);
+}
+
+bool glob_matches(const std::string& glob, const std::string& text) {
+  return fnmatch(glob.c_str(), text.c_str(), FNM_EXTMATCH) == 0;
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Regular expressions; only pattern.cpp includes <regex>, which takes seconds to compile.
+// Regular expressions and glob patterns; only pattern.cpp includes <regex>, which takes seconds to compile.
 #pragma once
 
 #include <memory>
@@ -28,5 +28,8 @@ class Pattern {
   struct Compiled;
   std::unique_ptr<Compiled> compiled_;
 };
+
+/// True if the whole text matches the glob pattern, which may contain !(A|B) and @(A|B).
+bool glob_matches(const std::string& glob, const std::string& text);
 
 }  // namespace crosscheck

@@ -1,7 +1,6 @@
 #include "mysim/base/text.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cctype>
@@ -105,10 +104,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
     parts.emplace_back(text.substr(begin, end - begin));
   parts.emplace_back(text.substr(begin));
   return parts;
-}
-
-bool glob_matches(const std::string& glob, const std::string& text) {
-  return fnmatch(glob.c_str(), text.c_str(), FNM_EXTMATCH) == 0;
 }
 
 size_t utf8_length(std::string_view text, size_t at) {

@@ -29,9 +29,6 @@ std::string unknown_name(std::string_view kind, std::string_view word, const std
 
 std::vector<std::string> split(std::string_view text, char separator);
 
-/// True if the whole text matches the glob pattern, which may contain !(A|B) and @(A|B).
-bool glob_matches(const std::string& glob, const std::string& text);
-
 /// Length (bytes) of the UTF-8 character that begins at `at`; 0 if it is invalid.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 

@@ -16,6 +16,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/pattern.h"
 #include "mysim/base/progress.h"
 #include "mysim/base/text.h"
 #include "tests/coursework/check/plot.h"
