@@ -5,7 +5,7 @@
 
 namespace Eigen::internal {
 
-/// Sums three numbers as (x + y) + z, with the same bits as Eigen's SIMD code. Without SIMD, Eigen uses another order.
+/// Sums three numbers as (x + y) + z, with the same bits as Eigen's SIMD code. Eigen without SIMD uses another order.
 template <class Function, class Evaluator>
 struct redux_novec_unroller<Function, Evaluator, 0, 3> {
   using Scalar = typename Evaluator::Scalar;

@@ -74,7 +74,7 @@ class Scene {
   std::shared_ptr<const crosscheck::Scene> scene_;
 };
 
-/// A state of a run, valid only in the observer call.
+/// A state of a run, valid only during the call of the observer.
 struct Frame {
   double t;                   // s
   std::span<const double> x;  // m: components x[3 i], x[3 i + 1], x[3 i + 2] of particle i

@@ -23,7 +23,7 @@ Vec3 displacement_at(const Motion& motion, double t);  // m
 Vec3 velocity_at(const Motion& motion, double t);      // m/s
 
 struct Particles {
-  Eigen::VectorXd mass;        // n, kg; energies ignore those of pinned particles
+  Eigen::VectorXd mass;        // n, kg; energies ignore the masses of pinned particles
   std::vector<int> pins;       // pinned particles, ascending
   std::vector<char> pinned;    // n; 1 where pinned
   Points pin_home;             // 3 x pins, m: positions at t = 0

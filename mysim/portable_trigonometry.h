@@ -12,9 +12,9 @@ struct ReducedAngle {
   unsigned quarter;   // the multiple, modulo 4
 };
 
-/// Cody and Waite's reduction: the first two of the three parts of pi/2 have 33 bits, so that their products with the
-/// multiple are exact if it has at most 20 bits, up to 1.6e6 rad (W. J. Cody and W. Waite, Software Manual for the
-/// Elementary Functions, chapter 8).
+/// Cody and Waite's reduction: the first two of the three parts of pi/2 have 33 bits. Their products with the multiple
+/// are therefore exact if the multiple has at most 20 bits, which holds up to 1.6e6 rad (W. J. Cody and W. Waite,
+/// Software Manual for the Elementary Functions, chapter 8).
 inline ReducedAngle reduced(double x) {
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   constexpr double per_quarter = 0x1.45f306dc9c883p-1;  // 2 / pi

@@ -30,7 +30,7 @@ std::string path_message(const fs::filesystem_error& error) {
                        reason);
   if (!error.path2().empty()) path += " -> " + error.path2().string();
   const std::errc code = static_cast<std::errc>(error.code().value());
-  // unfinished results are in hidden folders: report the visible folder above, which shows which disk is full
+  // unfinished results are in hidden folders: the message names the visible folder above them, on the same disk
   if (code == std::errc::no_space_on_device) path = path.substr(0, path.find("/."));
   const char* expected = code == std::errc::no_space_on_device      ? "; expected more free space on the disk"
                          : code == std::errc::permission_denied     ? "; expected a path that you may read and write"
@@ -62,7 +62,7 @@ std::string in_words(const std::exception_ptr& thrown) {
   } catch (const std::system_error& error) {
     return error.code().message();
   } catch (const std::exception& error) {
-    // without the library's prefix "[json.exception.type_error.302] "
+    // removes the prefix of the JSON library, "[json.exception.type_error.302] "
     std::string what = error.what();
     if (what.starts_with("[json.exception."))
       what = "a JSON file has unexpected content:" + what.substr(std::min(what.find(']') + 1, what.size()));

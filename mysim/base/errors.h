@@ -28,7 +28,7 @@ struct SolverFailure : std::runtime_error {
 std::string in_words(const std::exception_ptr& thrown);
 
 /// Runs a program's work and returns its exit status. Reports an exception on standard error, in one line that begins
-/// with the program's name, and returns 2. For a negative result the work returns 1 instead of throwing.
+/// with the program's name, and returns 2. If the answer is no, such as a failed check, the work returns 1.
 int run_reporting_errors(std::string_view program, const std::function<int()>& work);
 
 }  // namespace crosscheck

@@ -67,7 +67,7 @@ void StreamingFile::rewrite_beginning(std::string_view bytes) {
 void StreamingFile::finish() {
   if (std::fflush(out_.get()) != 0) fail(no_room);
   if (!named_) {
-    // removes a file left behind by a process with the same id that died before the rename
+    // a process with the same id may have left a file of this name, if it was killed before the rename
     unlink(temporary_.c_str());
     const std::string self = fmt::format("{}/{}", descriptors, fileno(out_.get()));
     if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0)
@@ -149,7 +149,7 @@ std::string file_name_of(std::string_view text) {
   return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
-// The owner of a temporary folder holds an exclusive lock on it, which ends with the process in every pid namespace.
+// The owner of a temporary folder locks it until the owner ends. A lock, unlike an id, is valid in every pid namespace.
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
   // a name pattern that no user folder has; remove_stale_temporary_folders() relies on it

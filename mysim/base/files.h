@@ -1,4 +1,4 @@
-// Reading and writing of whole files that leaves no partial file when a run is killed, and temporary folders.
+// Reads and writes whole files, leaves no partial file when a run is killed, and creates temporary folders.
 #pragma once
 
 #include <cstdio>
@@ -11,8 +11,8 @@
 namespace crosscheck {
 
 /// A file that is written piece by piece and gets its name only when complete. Until then it is unnamed or, on file
-/// systems without unnamed files, has a temporary name in the same folder. All members throw InputError with the file's
-/// name if it cannot be written.
+/// systems without unnamed files, has a temporary name in the same folder. All members throw InputError if they cannot
+/// write the file; the message names the file.
 class StreamingFile {
  public:
   /// Creates a missing folder.

@@ -10,7 +10,7 @@ namespace crosscheck {
 // itself. CMake writes one into the build folder and one into the installation, so that both can be moved.
 
 /// Folder of files read at run time (scenes, baselines, the page's scripts, assignments), laid out as in the source
-/// tree; in a build it is the source tree. Throws std::runtime_error if there is no crosscheck.folders.
+/// tree. For a build, it is the source tree itself. Throws std::runtime_error if there is no crosscheck.folders.
 std::filesystem::path data_folder();
 
 /// Folder of built files: programs, mysim's library, the lab's Python module.

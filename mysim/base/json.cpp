@@ -40,8 +40,8 @@ bool find_path(const Json& from, const Json& to, std::string& path) {
   return false;
 }
 
-/// Callbacks for the library's parser. The library's own tree builder has no depth limit, and compares each key with
-/// all keys before it.
+/// Callbacks for the library's parser. They replace the library's own tree builder, which has no depth limit and
+/// compares each key with all keys before it.
 class Reader {
  public:
   bool null() { return add(nullptr), true; }

@@ -1,4 +1,4 @@
-// JSON: documents to build and write, and parsed files whose look-ups report file, path and expected value in errors.
+// JSON: documents to build and write; parsed files, whose look-ups report file, path and expected value in errors.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ std::string dump_in_lines(const Json& object);
 class JsonField {
  public:
   /// Parses a text; `name` stands for the file in messages. Throws InputError with line and column for invalid JSON,
-  /// and for documents nested more than 500 levels deep. The last of repeated keys counts.
+  /// and for documents nested more than 500 levels deep. If a key is repeated, its last value counts.
   static JsonField parse(std::string_view text, std::string name, const char* expected = "JSON");
   /// Parses a file. Also throws InputError if the file cannot be read or is not one object.
   static JsonField parse_file(const std::string& file);

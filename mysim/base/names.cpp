@@ -58,7 +58,7 @@ std::string printable(std::string_view text) {
 
 namespace {
 
-/// A standard stream, and the first bytes of a UTF-8 character that the next write completes.
+/// A standard stream, and the first bytes of a UTF-8 character whose other bytes come with the next write.
 struct TextStream {
   int file;
   std::string begun;

@@ -188,7 +188,7 @@ void remove_empty_above(const fs::path& root, const fs::path& path) {
 /// Links the user's files in `target` into the new result `stage`.
 void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // links changed files of the earlier result last, because their new names must not collide with those of other files
+  // links changed files of the earlier result last: their new names must not be those of other files
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
@@ -216,7 +216,7 @@ void absorb(const fs::path& from, const fs::path& target) {
   for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
   for (const std::string& path : paths_in(from)) {
     const fs::path file = from / path;
-    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // empty, or left by a killed writer
+    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // empty, or an unfinished manifest
     if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
         same_bytes(file, (target / path) += ".yours"))
       fs::remove(file);

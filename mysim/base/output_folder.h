@@ -10,12 +10,12 @@
 
 namespace crosscheck {
 
-/// The lock on a result folder, held until the process ends, and the working folder for the next result.
+/// The lock on a result folder (ends with this object or process), and the working folder for the next result.
 class OutputLock {
  public:
-  /// Throws InputError "--out FOLDER: ..." if the folder cannot be created, written to or replaced (a file of that
-  /// name, a dangling link, a mount point, a folder of another user), or if another process, which the message names,
-  /// holds the lock.
+  /// Throws InputError "--out FOLDER: ..." if the folder cannot be created, written to or replaced (because it is a
+  /// file, a dangling link, a mount point or a folder of another user), or if another process holds the lock. The
+  /// message names that process.
   OutputLock(const std::filesystem::path& given, const std::string& command);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;
@@ -42,12 +42,12 @@ class OutputLock {
 /// A result in preparation, in the working folder. finish() links the user's files into it and exchanges the two
 /// folders (renameat2, RENAME_EXCHANGE). On file systems that cannot exchange names (NFS, 9p, sshfs), it renames the
 /// earlier result to WORK/old, and then the new one to its place; if the process is killed in between, the next writer
-/// moves the earlier one back. Listed files that the user has changed, and user files under names of the new result,
-/// are kept as NAME.yours.
+/// moves the earlier one back. A listed file that the user has changed is kept as NAME.yours, and so is a user file
+/// whose name the new result needs.
 class OutputFolder {
  public:
-  /// Acquires the lock, cleans up after a killed writer, and begins. Throws InputError like OutputLock, and if the
-  /// folder belongs to another command or holds files but no manifest; then nothing is changed.
+  /// Acquires the lock, cleans up after a killed writer, and begins a result. Throws like OutputLock. Also throws,
+  /// without changing anything, if the folder belongs to another command or holds files but no manifest.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
   /// Removes an unfinished result.
   ~OutputFolder();
@@ -76,7 +76,7 @@ class ResumableOutput {
 
   /// Lists the files that will be written next. User files under these names are kept as NAME.yours.
   void announce(const std::vector<std::string>& files);
-  /// Path of an incomplete file until finish(): "unfinished-NAME" if a finished result has a file NAME, otherwise NAME.
+  /// Path of an incomplete file until finish(): "unfinished-NAME" if a finished result has the file NAME, else NAME.
   std::filesystem::path growing(const std::string& file);
   /// Includes the listed files of an inner folder in this result.
   void keep(const std::string& inner);

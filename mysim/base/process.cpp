@@ -175,10 +175,10 @@ pid_t start(const Call& call) {
 }
 
 // An untrusted program may detach itself (setsid, a double fork), leave children behind and kill its parent. It is
-// therefore started by a watcher, a process that only waits for it and ends all its descendants. If the kernel permits,
-// the watcher is the first process of a pid namespace: nothing inside can kill it or escape, and the kernel ends all
-// processes inside with it. Otherwise it is a subreaper, which adopts orphans, and kills its children until it has
-// none. A program that kills a subreaper escapes, which is reported.
+// therefore started by a watcher, a process that only waits for the program and ends all its descendants. If the kernel
+// permits, the watcher is the first process of a pid namespace: nothing inside can kill it or escape, and the kernel
+// ends all processes inside with it. Otherwise the watcher is a subreaper: it adopts orphans, and kills its children
+// until it has none. A program that kills such a watcher escapes, and the result says so.
 
 struct WatcherReport {
   int status;  // as of wait()
@@ -215,7 +215,7 @@ void keep_as_number_3(int file) {
 constexpr milliseconds grace(200);     // time for the children of a terminated program to end as well
 constexpr int try_without_users = -1;  // not an errno value: the user maps could not be written
 
-/// The watcher's main loop. Reports once all processes have ended, at most ten seconds after the limit or SIGTERM.
+/// The watcher's main loop. Reports when all processes have ended, at most ten seconds after the limit or SIGTERM.
 [[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, milliseconds limit,
                         int error_file, int report) {
   setpgid(0, 0);  // out of reach of terminal signals to the parent's process group
@@ -228,7 +228,7 @@ constexpr int try_without_users = -1;  // not an errno value: the user maps coul
   sigset_t child_ended, before;
   sigemptyset(&child_ended);
   sigaddset(&child_ended, SIGCHLD);
-  sigaddset(&child_ended, SIGTERM);  // stays pending, although the first process of a namespace would ignore it
+  sigaddset(&child_ended, SIGTERM);  // if blocked, stays pending even in the first process of a namespace
   sigprocmask(SIG_BLOCK, &child_ended, &before);
   const pid_t program = clone_process(0);
   if (program == 0) {

@@ -14,7 +14,7 @@
 namespace crosscheck {
 
 /// Environment ("NAME=value") of all programs that Crosscheck starts: the environment of this program, with locale
-/// C.UTF-8 and time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
+/// C.UTF-8 and time zone UTC, so that output does not depend on the terminal or job. `extra` takes precedence.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
 /// Null-terminated pointers to the texts, as exec*() requires.
@@ -84,8 +84,8 @@ bool on_path(const std::string& program);
 
 std::string last_lines(const std::string& text, int count);
 
-/// Ends all children of this process, and the orphans it adopts as a subreaper: SIGTERM, then
-/// SIGKILL after the grace period. Gives up ten seconds later. Allocates nothing.
+/// Ends all children of this process, and the orphans it adopts as a subreaper, by SIGTERM and, after the grace period,
+/// by SIGKILL. Gives up ten seconds later. Allocates nothing.
 void end_children(std::chrono::milliseconds grace);
 
 }  // namespace crosscheck

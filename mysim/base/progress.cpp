@@ -33,7 +33,7 @@ std::string format_duration(double seconds) {
 }
 
 std::string progress_line(const ProgressSnapshot& seen) {
-  // assumes steps of equal length; estimates only after 1 % of the work
+  // the estimate assumes steps of equal length, and is shown only after 1 % of the work
   const bool known = seen.total >= seen.begun;
   const double done = known ? (std::max(seen.begun - 1, 0) + seen.part) / seen.total : 0;
   std::string left;
@@ -71,7 +71,7 @@ struct Progress::Display {
   std::jthread thread;  // last member, therefore destroyed first
 
   explicit Display(int steps) : total(steps) {
-    // the working thread handles signals
+    // the new thread blocks all signals, which leaves them to the working thread
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

@@ -1,5 +1,5 @@
-// Progress of long work on standard error, after two seconds: a line rewritten in place on a terminal, plain lines
-// elsewhere.
+// Progress of long work on standard error, shown after two seconds. On a terminal, one line is rewritten in place;
+// elsewhere, new lines are printed.
 #pragma once
 
 #include <sys/types.h>
@@ -37,8 +37,8 @@ class Progress {
   void expect(int more);
   /// Erases the line from the terminal until the next step begins.
   void done();
-  /// Calls fork() while the display thread sleeps: if the display thread held a lock (e.g. of the allocator), it would
-  /// never be released in the child.
+  /// Calls fork() while the display thread sleeps. If it held a lock at that time (e.g. of the allocator), nobody would
+  /// release this lock in the child.
   pid_t fork();
 
  private:

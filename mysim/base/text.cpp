@@ -18,8 +18,8 @@ std::string folded_word(std::string_view word) {
   return out;
 }
 
-/// Optimal string alignment distance: insertions, deletions, substitutions and transpositions of neighbours, each
-/// letter edited once.
+/// Optimal string alignment distance: insertions, deletions, substitutions and transpositions of neighbours, where each
+/// letter is edited at most once.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;

@@ -8,11 +8,11 @@
 
 namespace crosscheck {
 
-/// The name closest to a misspelt word, or nothing. Prefers the name with the smallest Damerau-Levenshtein distance
-/// (letters inserted, deleted, substituted or swapped with a neighbour) of up to a third of the longer word, ignoring
-/// case, '_' and '-'. Otherwise the shortest name that begins with the word or contains it after a hyphen or slash.
-/// Otherwise the longest name that the word contains in the same way ("rest" for "rest_length"), and finally the name
-/// with the longest common prefix of at least five letters.
+/// The name closest to a misspelt word, or nothing; ignores case, '_' and '-'. The first choice is the name with the
+/// smallest Damerau-Levenshtein distance (letters inserted, deleted, substituted or swapped with a neighbour), up to a
+/// third of the longer word. The second is the shortest name that begins with the word or contains it after a hyphen or
+/// slash; the third, the longest name that the word contains in the same way ("rest" for "rest_length"); the last, the
+/// name with the longest common prefix of at least five letters.
 std::string closest_match(std::string_view word, const std::vector<std::string>& names);
 
 /// "; did you mean 'NAME'?" for the closest match, or nothing.
@@ -23,8 +23,8 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
                          std::string_view list);
 
-/// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", with the closest match in KNOWN (words
-/// after a plus).
+/// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN". Adds the closest of the options in
+/// `known`, which are its words after a plus.
 [[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);
 
 std::vector<std::string> split(std::string_view text, char separator);

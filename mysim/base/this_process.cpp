@@ -73,8 +73,8 @@ std::optional<double> number_of_file(const fs::path& file, std::string_view word
   return in >> value ? std::optional(value) : std::nullopt;
 }
 
-/// Memory left by this process's control groups (version 1 or 2) on all levels up to the root. They count file caches
-/// as used, although these are released on demand.
+/// Memory left by this process's control groups (version 1 or 2) on all levels up to the root. Adds inactive file
+/// caches, which the groups count as used, although the kernel releases them on demand.
 double left_by_groups() {
   double least = unlimited;
   std::ifstream in("/proc/self/cgroup");

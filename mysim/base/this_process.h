@@ -34,11 +34,12 @@ double cpu_time_of(const Work& work) {
 /// less. Infinite if unknown.
 double free_memory();
 
-/// Runs the work in a child process, forwards SIGINT, SIGTERM and SIGHUP to it, and returns its exit status, or ends
-/// the way the child ended. Before that, and outside of signal handlers, it ends all descendants of the child, removes
-/// temporary folders of dead processes, and cleans up unfinished results (see register_output()). If this supervisor is
-/// killed, the child is killed too, and the next start cleans up. Call it first in main(). Runs the work in this
-/// process if it cannot fork. Prints `when_interrupted` on standard error if a signal ends the work.
+/// Runs the work in a child process and forwards SIGINT, SIGTERM and SIGHUP to it. When the child has ended, ends all
+/// its descendants, removes temporary folders of dead processes, and cleans up unfinished results (see
+/// register_output()), none of it in a signal handler. Then returns the child's exit status, or ends the way the child
+/// ended. If this supervisor is killed, the child is killed too, and the next start cleans up. If it cannot fork, it
+/// runs the work in this process. Prints `when_interrupted` on standard error if a signal ends the work. Must be called
+/// first in main().
 int run_supervised(const std::function<int()>& work, const std::string& when_interrupted = "");
 
 /// Registers a result folder for clean-up if this process is killed. No effect without a supervisor.

@@ -185,7 +185,7 @@ constexpr int most_repetitions = 100;
 /// cheap.
 int most_newton_steps(long particles) { return static_cast<int>(std::max(200L, 100'000 / particles)); }
 /// Most cloths need ten steps. Following negative curvature far from a minimum may be a detour, and is reserved for
-/// solves that exceed this number.
+/// solves that need more steps than this.
 constexpr int few_newton_steps = 20;
 
 }  // namespace
@@ -201,7 +201,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = multigrid_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * multigrid_->products());
   }
-  // the pairs serve other spring graphs, and cloths on which the V-cycle fails (none is known)
+  // the list of pairs serves other spring graphs, and cloths on which the V-cycle fails (none is known)
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;
@@ -216,8 +216,8 @@ CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
 }
 
 /// Moves from u_ along the direction of negative curvature to the lowest potential found, and returns this potential.
-/// Starts with the length of the last step, and doubles it as long as the potential does not rise: near a saddle the
-/// gradient and Newton's step are small, and the potential decreases at first by less than its rounding error.
+/// The first length is that of the last Newton step, which is short near a saddle, because the gradient is small. The
+/// length is doubled as long as the potential does not rise: at first it falls by less than its rounding error.
 double ImplicitStep::leave_saddle(double value, double step) {
   const double size = largest_column(downhill_);
   potential_.gradient(u_, g_);
@@ -233,7 +233,7 @@ double ImplicitStep::leave_saddle(double value, double step) {
   return lowest;
 }
 
-/// Descends from u_, where the potential is the last of descent_, to the minimum.
+/// Descends from u_ to the minimum. The last entry of descent_ must be the potential at u_.
 void ImplicitStep::minimise() {
   assert(!descent_.empty());
   double value = descent_.back();

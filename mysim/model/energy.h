@@ -16,12 +16,12 @@ struct Power {
   double drag = 0;      // W, dissipated by drag (not negative)
   double dashpots = 0;  // W, dissipated by dashpots (not negative)
   double wind = 0;      // W, supplied by the wind, uniform or on triangles
-  double pins = 0;      // W, by moved pins: sum of -f . v, with the force f of springs, bending and dashpots on a pin
+  double pins = 0;      // W, supplied by moved pins: sum of -f . v; springs, bending and dashpots exert f on a pin
   double dissipated() const { return drag + dashpots; }
 };
 
 Energy energy_of(const Model& model, const State& state);
-/// `scratch`: working memory of the size of the state, saves an allocation per step.
+/// `scratch`: working memory of the size of the state; saves an allocation per step.
 Power power_of(const Model& model, const State& state, Forces& scratch);
 
 }  // namespace crosscheck

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr double round_off = 1e-9;  // relative; positions in a scene file are rounded to 1e-16 of its size
+constexpr double round_off = 1e-9;  // relative; positions in a scene file are rounded to 1e-16 of the scene's size
 
 struct Arm {
   Vec3 to;   // m, from the particle to the spring's other end
@@ -171,7 +171,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
     stars[static_cast<size_t>(s.b)].push_back({-d, k, s.family});
   }
 
-  // Chooses the particle nearest to the middle among those with the most springs, each paired with an opposite one.
+  // Considers only particles whose springs form opposite pairs; prefers more springs, then a place near the middle.
   const Vec3 middle = x.rowwise().mean();
   int inside = -1;
   for (int i = 0; i < x.cols(); ++i) {

@@ -21,8 +21,8 @@ struct Moduli {
   bool cubic = true;        // the axes are equivalent, and stretch and shear are not coupled
   double c11_of_bend = 0;   // part of c11 due to skip-one springs
 
-  /// Measure of anisotropy, 1 if isotropic: Zener's ratio 2 c66 / (c11 - c12) for cubic networks, smallest over largest
-  /// Young's modulus for other sheets, and 0 for lines and other blocks.
+  /// Measure of anisotropy, 1 if isotropic: Zener's ratio 2 c66 / (c11 - c12) for cubic networks, the smallest divided
+  /// by the largest Young's modulus for other sheets, and 0 for lines and other blocks.
   double anisotropy() const;
   /// Transverse contraction divided by extension under a pull along axis 1; 0 for a line.
   double poisson() const;
@@ -40,10 +40,10 @@ struct NetModuli {
 };
 
 /// Moduli of a network whose springs have their rest lengths, are the same at every particle, and form opposite pairs.
-/// A uniform strain then moves every particle affinely, and the energy per particle, over its area or volume V, gives
+/// A uniform strain then moves every particle affinely. With V, the area or volume per particle, the energy gives
 ///   C_ijkl = sum over the springs of one particle of k L^2 n_i n_j n_k n_l / (2 V)
-/// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the
-/// network's edge keep their full stiffness, so a network of n particles per side differs by O(1/n).
+/// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the edge
+/// keep their full stiffness, so the moduli of a network of n particles per side deviate from these by O(1/n).
 NetModuli moduli_of(const Model& model, const State& start);
 
 /// "N", "N/m" or "Pa".
@@ -63,8 +63,8 @@ struct BendingLength {
   double spacings() const { return length / spacing; }
 };
 
-/// Returns nothing for a model without bending. w is the weight of all particles over the area of all cells, in the
-/// initial state.
+/// Returns nothing for a model without bending. w is the weight of all particles divided by the area of all cells, in
+/// the initial state.
 std::optional<BendingLength> bending_length_of(const Model& model, const State& start);
 std::string sentence_of(const BendingLength& bending);
 /// Returns a warning if the grid is coarser than half a fold, otherwise an empty string.

@@ -8,8 +8,8 @@
 
 namespace crosscheck {
 
-/// The component of each particle, by springs, bending and hard distances. Components are numbered from 0 in the order
-/// of their first particles.
+/// The component of each particle; springs, bending and hard distances connect particles. Components are numbered from
+/// 0 in the order of their first particles.
 std::vector<int> pieces_of(const Model& model);
 
 /// Pairs of particles at most `distance` (m) apart, lower index first, in ascending order.

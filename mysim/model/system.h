@@ -57,8 +57,8 @@ class System {
 /// changes omega^2 by less than 1e-5 of its value, or after 500 products.
 double highest_frequency(const Model& model, const State& state);
 
-/// Upper bound of highest_frequency() over all states. Takes springs to be as stiff across their direction as along it,
-/// which is the limit of large stretch.
+/// Upper bound of highest_frequency() over all states. Assumes that springs are as stiff across their direction as
+/// along it, which is the limit of large stretch.
 double highest_frequency_bound(const Model& model, const State& state);
 
 /// The common drag rate gamma = c / m of all free particles (1/s), 0 without drag; nothing if the rates differ.

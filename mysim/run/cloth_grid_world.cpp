@@ -178,7 +178,7 @@ class ClothGridWorld : public World {
     return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
-  /// Forgets the contacts of the last step, and moves the bounding surfaces to the end of this one.
+  /// Forgets the contacts of the last step, and moves the bounding surfaces to their places at the end of this step.
   void begin_contacts(double t, double t_next) {
     t_ = t, t_next_ = t_next;
     for (SlabResult& result : slab_results_) result.lost.clear();
@@ -210,7 +210,7 @@ class ClothGridWorld : public World {
     Vec3 place = at(x), speed = at(v);
     // state at the beginning of the step
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    // a particle that ends its step outside counts as free, because contact changes its velocity by at most O(h)
+    // a particle that ends its step outside may count as free: contact would change its velocity by at most O(h)
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
                                       : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
                                                          speed, record_contact_loss_);

@@ -58,7 +58,7 @@ class ParticleStep {
     }
     if (!touched_ && !ends_inside_) return false;
     if (done_ < h_) finish_by_whole_step();
-    // Leaving one surface may lead into another. Repetition converges to where overlapping surfaces meet.
+    // Moving a particle out of one surface may move it into another. Repetition converges to a point where both meet.
     for (int round = 0; round < 100; ++round) {
       bool inside = false;
       for (const SurfaceTrack& track : surfaces_) inside |= put_outside(track);
@@ -90,7 +90,7 @@ class ParticleStep {
   static double gap(const SurfaceTrack& track, const Vec3& x, double s) {
     return track.surface().gap(x - track.origin(s));
   }
-  /// True if x is inside by more than rounding, so that a particle that takes off from the surface does not count.
+  /// True if x is inside by more than rounding. A particle that takes off from the surface thus counts as outside.
   bool inside(const SurfaceTrack& track, const Vec3& x, double s) const {
     return gap(track, x, s) < -16 * eps * track.surface().rounding_scale(track.origin(s), reach_);
   }
@@ -118,7 +118,7 @@ class ParticleStep {
     std::array<Contact, most_contacts> near;
     int touching = 0;
     for (const SurfaceTrack& track : surfaces_) {
-      // rounding of a position on the surface: due to its centre, its radius, and a step away and back
+      // rounding error of a position on the surface: of the centre, of the radius, and of a step away and back
       const double rounding = 1e-12 * track.surface().rounding_scale(track.origin(done_), reach_);
       if (touching == most_contacts || !(gap(track, x_, done_) <= rounding)) continue;
       put_outside(track);
@@ -135,8 +135,8 @@ class ParticleStep {
     for (int i = 0; i < touching; ++i) {
       const auto& [track, n] = near[i];
       const double away = (v_ - track->velocity(done_)).dot(n), press = pressure(*track, n);
-      // after an impact, a particle that would return within a step stays; otherwise it separates at any speed above
-      // rounding
+      // after an impact, a particle that would return within a step stays; without an impact, it separates at any speed
+      // above rounding
       const double slow = (hit ? 1 : 1e-6) * h_ * press / 2 + 8 * eps * v_.norm();
       if (press > 0 && away <= slow) contacts_[count_++] = near[i];
     }
@@ -165,7 +165,7 @@ class ParticleStep {
     return true;
   }
 
-  /// Deviation of the Hermite cubic through the stepper's states from the parabola, for paths that start with the step.
+  /// The stepper's path (a Hermite cubic through its states) minus the parabola, if the path starts with the step.
   Vec3 bent(double s) const {
     const double part = s / h_;
     return done_ == 0 ? Vec3(part * part * (3 - 2 * part) * bend_) : Vec3::Zero();
@@ -286,7 +286,7 @@ class ParticleStep {
       normal[i] = track.surface().normal(x_ + s / 2 * v_ - track.origin(done_ + s / 2));
       along[i].setZero();
     }
-    // each sweep multiplies the remainder by at most the squared cosine of the angle between normals
+    // each sweep multiplies the remaining error by at most the squared cosine of the angle between normals
     for (int sweep = 0; sweep < 500; ++sweep) {
       double change = 0;
       for (int i = 0; i < count_; ++i) {

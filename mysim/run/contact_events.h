@@ -8,8 +8,8 @@
 //            times e, and the tangential speed is reduced by at most mu (1 + e) |w_n|. A rebound that would return
 //            within a step is suppressed (e = 0): an endless sequence of bounces ends in contact.
 //   slides   dw/ds = b - gamma w + N n - mu N w/|w|, with N = -b.n - |w|^2 / R (R infinite for a plane), by the
-//            midpoint rule, projected back onto the surface, until the root of N, where it leaves, or of its speed,
-//            where it stops.
+//            midpoint rule, projected back onto the surface. Ends at the root of N, where the particle leaves, or of
+//            w, where it stops.
 //   sticks   as long as |b_t| <= mu N.
 // The impulses of several surfaces that touch a particle are computed together for the rest of the step, by projected
 // Gauss-Seidel iteration (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; M. Jean,
@@ -19,8 +19,8 @@
 // O(h^2), and an impact changes b by O(h), but in only one step. No additional acceleration is evaluated. Dashpots and
 // air depend on speeds, which contact changes by h N after the evaluation, so with these terms the order is 1. On a
 // moving sphere with friction a particle sticks and slips, and a slow slide turns towards the force within |w| / (mu
-// N), which is less than a step. The order measured from two step sizes then varies from -0.8 to 5.7; only the trend
-// over many shows order 2: 1.7 to 2.3 over 21 steps of 13 to 0.4 ms (mu 0.03 to 0.28 on a ball of 1 m, three motions).
+// N), which is less than a step. The order measured from two step sizes then varies from -0.8 to 5.7. Only the trend
+// over 21 step sizes from 13 to 0.4 ms shows order 2: 1.7 to 2.3 (mu 0.03 to 0.28 on a ball of 1 m, three motions).
 #pragma once
 
 #include <optional>

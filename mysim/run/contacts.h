@@ -3,14 +3,14 @@
 // Definitions, per kilogram of a particle: J is the velocity change by a surface, a = (v* - v_n) / h the acceleration
 // by all other forces. x_n, v_n are the state at the start of the step, x*, v* the stepper's proposal, x', v' the state
 // after contact.
-//   Impact: |J| > 3 (1 + e) |a| h, i.e. the approach is faster than those forces explain. It is instantaneous, at x' -
-//   x* before the end of the displacement, and loses the kinetic energy -J . (v* + v') / 2 + a . (x' - x*).
+//   Impact: |J| > 3 (1 + e) |a| h, i.e. the approach is faster than those forces explain. It is instantaneous, occurs
+//   x' - x* before the end of the displacement, and loses the kinetic energy -J . (v* + v') / 2 + a . (x' - x*).
 //   Any other contact lasts throughout the step. Its normal part works only through the displacement s of a moving
-//   surface; friction acts over the particle's displacement: -(J_t . (x' - x_n) + J_n . s) / h.
-// Hence a particle at rest on a fixed surface loses nothing, whatever the stepper proposes. The energy change of a
-// touching particle by the free step and the push out of the surface is an error of the method, not a loss, and remains
-// in the balance. The factor is 3 because explicit Euler supports a resting particle only in every other step, with |J|
-// = 2 |a| h.
+//   surface, and friction over the particle's displacement. The loss is -(J_t . (x' - x_n) + J_n . s) / h.
+// Hence a particle at rest on a fixed surface loses nothing, whatever the stepper proposes. The free step and the push
+// out of the surface also change the energy of a touching particle. This change is an error of the method, not a loss,
+// and remains in the balance. The factor is 3 because explicit Euler supports a resting particle only in every other
+// step, with |J| = 2 |a| h.
 #pragma once
 
 #include <optional>
@@ -30,9 +30,9 @@ enum class ContactRule {
 /// The rule of a method option ("events", "sticky"), or nothing for other options.
 std::optional<ContactRule> contact_rule_of_option(std::string_view option);
 
-/// True for rules of order 2 under ContactRule::events. A first-order rule moves particles off the path that their
-/// velocities indicate by h^2 a / 2, which is as much as contact displaces them. A multi-stage rule evaluates forces
-/// inside the solids, where rounding of the speed at first touch decides between two paths.
+/// True for rules of order 2 under ContactRule::events. A first-order rule moves particles by h^2 a / 2 off the path
+/// that their velocities indicate, as much as contact displaces them. A multi-stage rule evaluates forces inside the
+/// solids, where rounding of the speed at first touch decides between two paths.
 bool locates_events(const Stepper& stepper);
 
 /// The action of a rule on one particle that touches a surface; same contract as resolve_contact.

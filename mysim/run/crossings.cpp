@@ -64,7 +64,7 @@ int CrossingDetector::piercing_edges(const Points& x) {
     const double length = (x.col(a) - x.col(b)).norm();
     mean += length / static_cast<double>(edges_.size()), longest = std::max(longest, length);
   }
-  // a triangle then covers at most 5 cells along an axis, and cell indices fit into 31 bits
+  // in cells of this size, a triangle covers at most 5 cells along an axis, and cell indices fit into 31 bits
   cell_ = std::max({mean, longest / 4, x.cwiseAbs().maxCoeff() * 0x1p-30});
   if (!(cell_ > 0)) return 0;
   std::fill(begin_.begin(), begin_.end(), 0);

@@ -13,8 +13,8 @@ namespace crosscheck {
 class CrossingDetector {
  public:
   explicit CrossingDetector(std::vector<std::array<int, 3>> triangles);
-  /// Number of edges that pierce a triangle without sharing a particle with it; 0 if a position is not finite. Linear
-  /// in the number of triangles if their sizes are similar.
+  /// Number of edges that pierce a triangle without sharing a particle with it; 0 if a position is not finite. Takes
+  /// time linear in the number of triangles if their sizes are similar.
   int piercing_edges(const Points& x);
 
  private:
@@ -34,8 +34,8 @@ class CrossingDetector {
   std::vector<int> last_edge_;                         // last edge compared with each triangle
 };
 
-/// Checks at most 32 samples of a run, evenly spaced back from its end: a check costs as much as about forty steps of a
-/// cloth.
+/// Checks at most 32 samples of a run, evenly spaced and including the last, because a check costs as much as about
+/// forty steps of a cloth.
 class CrossingObserver : public Observer {
  public:
   CrossingObserver(const Scene& scene, int samples);

@@ -182,7 +182,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      // adaptive runs begin with the scene's step, whether observed or not
+      // without contact, run.step only spaces the observed states, so the first step is the scene's
       h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
       shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),
@@ -268,9 +268,9 @@ void require_supported(const Stepper& stepper, const Model& model) {
 }
 
 /// Returns a remark if particles lie on a surface with restitution at the end of a run with steps of h (s), otherwise
-/// an empty string. Contact on whole steps returns part of each step's speed, so a particle at rest under an
-/// acceleration a (m/s^2) keeps hopping by about a h^2. With explicit Euler, which adds energy in each flight, the
-/// height is at least 9 a h^2.
+/// an empty string. In each step, contact on whole steps reverses a part of the speed that the step added. A particle
+/// at rest under an acceleration a (m/s^2) therefore keeps hopping by about a h^2. With explicit Euler, which adds
+/// energy in each flight, the height is at least 9 a h^2.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   std::vector<Surface> surfaces = surfaces_of(scene.model);
   std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });

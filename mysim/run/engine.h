@@ -68,8 +68,8 @@ class RunLoop {
 
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
-/// Execution paths. Regular cloths use the fused step: reproducible (the same bits on every machine), as fast as
-/// possible, or in single precision. `general` uses the general engine, which handles any scene.
+/// Execution paths. The first three apply the fused step to regular cloths: with the same bits on every machine, as
+/// fast as possible, or in single precision. `general` uses the general engine, which handles any scene.
 enum class ExecutionPath { reproducible, fastest, single_precision, general };
 
 struct Execution {
@@ -77,7 +77,7 @@ struct Execution {
   int threads = 1;  // upper bound; small cloths use fewer. The number does not change the bits
 };
 
-/// Creates the world that steps the scene: regular cloths by the fused step, with the same rule. Throws Unsupported
+/// Creates the world that steps the scene. Regular cloths use the fused step, with the same rule. Throws Unsupported
 /// with the reason if the stepper cannot run the scene. Stepper and scene must outlive the world.
 std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
                                   const Observer& observer, const Execution& execution = {});

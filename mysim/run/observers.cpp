@@ -189,8 +189,8 @@ void DivergenceMonitor::begin(const State& state) {
   if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
   State& start = *start_;
   const Particles& particles = model_.particles;
-  // An engine that pushes a resting particle out of a contact gives it a small speed, at most that of a fall through
-  // 1/256 of the smaller of sphere and scene. A plane has no length of its own.
+  // An engine that pushes a resting particle out of a contact gives it a small speed: at most that of a fall through
+  // 1/256 of the scene's extent or of the smallest radius, whichever is less. A plane has no length of its own.
   if (const auto* gravity = model_.find<Gravity>(); gravity && has_contact(model_)) {
     const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
@@ -240,7 +240,7 @@ bool DivergenceMonitor::frozen(const State& state) {
     });
   };
   // A displacement must exceed the rounding of coordinates (in single precision if there are no velocities to show
-  // smaller motion) and, where forces balance, of spring forces: some roundings of omega^2 times a coordinate.
+  // smaller motion). It must also exceed the rounding of balanced forces: some roundings of omega^2 times a coordinate.
   const double t = state.t - start.t, omega = highest_frequency_bound(model_, start),
                seen = start.x.cwiseAbs().maxCoeff() * ((velocities ? 1e-12 : 1e-6) + 1e-15 * omega * omega * t * t);
   for (int i = 0; i < start.x.cols(); ++i)

@@ -57,7 +57,7 @@ class Integral {
 
 enum class ContactLoss {
   reported,  // by the engine
-  inferred,  // not reported: the balance's residual is attributed to contact, and no closure is claimed
+  inferred,  // not reported: the balance's residual counts as contact loss, so the balance proves nothing
   sampled,   // only samples are available: drag and air losses between them are estimated too
 };
 
@@ -95,7 +95,7 @@ class Ledger : public Observer {
   std::vector<LedgerRow> rows_;
 };
 
-// Bounds of a scene's true motion, accurate to a few per cent: enough to decide whether a run exceeds it tenfold.
+// Bounds of a scene's true motion, accurate to a few per cent: enough to tell whether a run exceeds them tenfold.
 
 struct MotionBounds {
   double speed = 0;    // m/s, largest of a free particle
@@ -122,13 +122,13 @@ class MotionBoundsCache {
   double none_from_ = std::numeric_limits<double>::infinity();  // s; runs of at least this duration have no bounds
 };
 
-// Detects failed runs: ten times faster than the true motion ever is, a spring ten times longer, or a state that is not
-// finite.
+// Detects failed runs: a particle is ten times as fast, or a spring ten times as long, as ever in the true motion, or
+// the state is not finite.
 
-/// Verdict::energy if a free particle is faster than ten times the largest speed of the true motion, by central
-/// differences of positions. Verdict::stretch if a spring, relative to its rest length, is longer than ten times the
-/// longest of the true motion. The true motion (MotionBounds) is computed only if the run's own energy leaves the
-/// verdict open, in about one run in twenty. The kinetic energy of the free particles by central differences is
+/// Verdict::energy if a free particle, by central differences of positions, is more than ten times as fast as any in
+/// the true motion. Verdict::stretch if a spring, relative to its rest length, is more than ten times as long as any in
+/// the true motion. The true motion (MotionBounds) is computed only if the run's own energy leaves the verdict open, in
+/// about one run in twenty. The kinetic energy of the free particles by central differences is
 ///   K^_n = sum of m/2 |(x_{n+1} - x_{n-1}) / (t_{n+1} - t_{n-1})|^2,
 /// and the energy available to the run is
 ///   B = K_0 + U_0 + max |change of gravitational energy| + max |work of wind and moved pins| + 2 h^2 sum of m |a_0|^2
@@ -142,10 +142,10 @@ class MotionBoundsCache {
 /// 2 (K_0 + U_0) for every h omega < 2, while the energy itself oscillates by a factor 1 / (1 - (h omega / 2)^2),
 /// entirely in the springs. Above the limit theta is complex, and K^ grows by a constant factor per step. B contains
 /// neither Hooke's energy of links that a position-based rule leaves unsolved nor an engine's own velocities. Its last
-/// part is the speed that the first step gives before anything has moved (explicit Euler). Bounds of energy alone do
-/// not suffice: a nonlinear system heats up to some B and stays there, and a prestressed network, or one that lies in a
-/// hollow, has far more energy than it can ever convert to motion. tests/unit/experiments/verdict_trials.cpp counts
-/// wrong verdicts.
+/// part covers the speed that the first step gives before anything has moved (explicit Euler). Bounds of energy alone
+/// do not suffice: a diverging nonlinear system may heat up to a moderate K^ and stay there, and a prestressed network,
+/// or one that lies in a hollow, has far more energy than it can ever convert to motion.
+/// tests/unit/experiments/verdict_trials.cpp counts wrong verdicts.
 ///
 /// The monitor observes the states that every engine provides (verdict_stride, run.h): every step of most runs.
 /// Differences of states more than a step apart are mean velocities, which are no larger: no good run is condemned, but

@@ -44,8 +44,8 @@ struct TimeGrid {
 };
 /// Throws InputError if a sampling interval would contain more than 1e9 steps.
 TimeGrid time_grid(const Run& run);
-/// Steps between two states on which a verdict is based: the smallest divisor of a sampling interval for which a run
-/// has at most 8192 such states, and at most 2^20 particle positions in them. External programs must return the same
+/// Steps between two states on which a verdict is based: the smallest divisor of steps_per_sample for which a run has
+/// at most 8192 such states, and at most 2^20 particle positions in them. External programs must return the same
 /// states, so that every engine is judged on the same evidence.
 int verdict_stride(const TimeGrid& grid, int particles);
 
@@ -58,8 +58,8 @@ class Observer {
   virtual bool between_samples() const { return false; }
   /// Any verdict except Verdict::ok ends the run.
   virtual Verdict observe(const State& state, bool sample) = 0;
-  /// Reports a contact in the last step and its energy loss (J, accounting rules in contacts.h). Called before the
-  /// state after the step is observed, by engines that know their contacts.
+  /// Reports a contact in the last step and its energy loss (J, accounting rules in contacts.h). Engines that know
+  /// their contacts call it before observe() receives the state after the step.
   virtual void contact(double /*lost*/) {}
 };
 
@@ -100,7 +100,7 @@ struct Readback {
   };
   struct Ball {
     Vec3 centre;                        // m, at the start
-    std::optional<double> radius;       // m, at which particles touch, including the margin
+    std::optional<double> radius;       // m, distance of touching particles from the centre, with margin
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
@@ -146,7 +146,7 @@ struct Outcome {
   long steps = 0;                          // taken
   long evaluations = 0;                    // right-hand side evaluations, or the engine's own force passes
   long degenerate_springs = 0;             // springs at zero length, summed over evaluations
-  double cpu_seconds = 0;                  // stepping threads without observers, or as an external program reports
+  double cpu_seconds = 0;                  // CPU time of stepping, without observers; external programs report it
   double process_seconds = 0;              // CPU time of an external program, including start-up and files; otherwise 0
   std::string remark;                      // e.g. complaints of an external program
   std::vector<std::string> different_law;  // ingredients that the engine models by another law, one sentence each

@@ -106,7 +106,7 @@ Points grid_points(const Grid& g) {
 
 std::vector<Spring> grid_springs(const Grid& g) {
   std::vector<Spring> list;
-  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // springs begun by an inner particle; large cloths fill the memory
+  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // 12 or 6 begin at an inner particle; large cloths fill the memory
   const Vec3* side[3] = {&g.u, &g.v, &g.w};
   const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
   using Steps = std::array<int, 3>;

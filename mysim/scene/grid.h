@@ -29,8 +29,8 @@ Grid read_grid(const TomlTable& s);
 Points grid_points(const Grid& grid);
 /// Springs of the grid, for each particle in order: structural springs along the axes, both shear diagonals of each
 /// face of the cell that starts there, and bend (skip-one) springs along the axes. All springs of one direction have
-/// the same rest length, to which the initial positions are rounded. The structural springs of an inextensible grid are
-/// infinitely stiff.
+/// the same rest length, which their initial lengths equal up to rounding. The structural springs of an inextensible
+/// grid are infinitely stiff.
 std::vector<Spring> grid_springs(const Grid& grid);
 /// For each particle, the stencils of mysim/terms/bending.h along u and v that are centred on it, and the stencil of
 /// the cell that starts there.

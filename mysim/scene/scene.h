@@ -26,7 +26,7 @@ struct Scene {
   double duration;     // s
   int samples;         // frames after the first, at i duration / samples
   double step;         // s, default
-  double window;       // s, end of the pointwise comparison (a 1e-10 m perturbation grows by less than 1e3)
+  double window;       // s, end of the pointwise comparison (by then a 1e-10 m perturbation grows less than 1000-fold)
   double tolerance;    // m, smaller differences are irrelevant to the scene's purpose
   std::string method;  // default method
 

@@ -71,7 +71,7 @@ class TomlDocument {
   std::shared_ptr<Tree> tree_;
 };
 
-/// An error in the text: the line (from 1) to correct, which need not be where the parser stumbled, and how.
+/// An error in the text: the line (from 1) to correct, which need not be where the parser stumbled, and the remedy.
 struct TomlError {
   int line;
   std::string what;

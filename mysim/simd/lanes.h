@@ -279,8 +279,8 @@ struct Lanes<float> {
 
 #endif
 
-/// Lanes whose fma() and fnma() round the products, which gives the same bits on every machine, or, if `fast`, fuse
-/// them where possible.
+/// Lanes whose fma() and fnma() round the product before they add it, which gives the same bits on every machine, or,
+/// if `fast`, fuse both operations where possible.
 template <class T, bool fast>
 struct Arithmetic : Lanes<T> {
   using V = typename Lanes<T>::V;

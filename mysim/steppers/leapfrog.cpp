@@ -6,8 +6,8 @@
 namespace crosscheck {
 namespace {
 
-/// out = v' = v + h (a - gamma v) / (1 + h gamma/2); may be v itself. The form ((1 - h gamma/2) v + h a) / (1 + h
-/// gamma/2) would round the small effect of drag to ulps of v in every step.
+/// out = v' = v + h (a - gamma v) / (1 + h gamma/2), where `out` may be `v`. The form ((1 - h gamma/2) v + h a) / (1 +
+/// h gamma/2) would round the small effect of drag to ulps of v in every step.
 void kick(const Eigen::ArrayXd& gamma, const Points& v, const Points& a, double h, Points& out) {
   for (int i = 0; i < v.cols(); ++i)
     out.col(i) = v.col(i) + h / (1 + h / 2 * gamma[i]) * (a.col(i) - gamma[i] * v.col(i));

@@ -35,7 +35,7 @@ double first_exit(Growth growth, double scale) {
       const double middle = (low + high) / 2;
       (unstable(middle) ? high : low) = middle;
     }
-    // a rule that is unstable at every step size, if only slightly, is so at the first point
+    // a rule that is unstable at every step size, if only slightly, is already unstable at the first point
     return i == 1 ? 0 : low;
   }
   return infinity;

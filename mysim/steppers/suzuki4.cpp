@@ -14,7 +14,7 @@ KickDriftComposition suzuki4_composition() {
 
 void suzuki4(System& f, State& s, double h, Workspace& w) {
   const double start = s.t;
-  // with four passes, velocity-dependent forces break the symmetry by O(h^5) only, the rule's error per step
+  // with four passes, velocity-dependent forces break the symmetry by O(h^5), no more than the rule errs per step
   constexpr int passes = 4;
   double done = 0;
   for (const double part : suzuki4_composition().fractions) {

@@ -2,9 +2,9 @@
 //
 // A thin plate stores the energy B/2 (w_uu^2 + 2 w_uv^2 + w_vv^2) per area, where w is its deflection (S. Timoshenko
 // and S. Woinowsky-Krieger, Theory of Plates and Shells, chapter 4; Poisson's ratio enters only through w_uu w_vv -
-// w_uv^2). For an inextensible sheet, |x_uu|, |x_uv| and |x_vv| replace the derivatives of w, where x is the position
-// in space, however far it bends (M. Bergou et al., A quadratic bending model for inextensible surfaces, SGP 2006): the
-// energy is quadratic in x. On a grid with spacings p and q along u and v
+// w_uv^2). In an inextensible sheet, however far it bends, |x_uu|, |x_uv| and |x_vv| take the place of the derivatives
+// of w, where x is the position in space (M. Bergou et al., A quadratic bending model for inextensible surfaces, SGP
+// 2006). The energy is then quadratic in x. On a grid with spacings p and q along u and v
 //   x_uu = (x_{i-1} - 2 x_i + x_{i+1}) / p^2 + O(p^2)         on an area p q, half of that on an edge row
 //   x_uv = (x_00 - x_10 - x_01 + x_11) / (p q) + O(p^2 + q^2) on the area p q of a cell
 // and x_vv likewise.

@@ -30,8 +30,8 @@ inline void add_force(const Dashpots& dashpots, const Particles&, const State& s
   }
 }
 
-/// -dF/dv at the state's directions. The change of the directions (dF/dx) is omitted, which keeps the matrix symmetric:
-/// implicit methods repeat the solve with the new directions.
+/// -dF/dv at the state's directions. The change of the directions (dF/dx) is omitted, which keeps the matrix symmetric.
+/// Instead, implicit methods repeat the solve with the new directions.
 inline void add_tangent(const Dashpots& dashpots, const Particles&, const State& state, Curvature, Tangent& tangent) {
   for (const auto& [a, b, c] : dashpots.list) {
     const Vec3 d = state.x.col(a) - state.x.col(b);

@@ -1,7 +1,7 @@
 // Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L, and the opposite on b. The law T is
 //   hooke         T = k (L - r), energy k (L - r)^2 / 2;
 //   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))).
-// bullet-link is the limit of Bullet's position-based links for steps h -> 0: their correction per step, over h^2.
+// bullet-link is the limit of Bullet's position-based links for steps h -> 0: the correction in a step, over h^2.
 #pragma once
 
 #include <cmath>
@@ -54,7 +54,7 @@ double force_over_length(double k, double rest, double squared) {
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
-/// -dF/dx. If clamped, it omits the negative transverse stiffness of compressed springs, which makes it positive
+/// -dF/dx. If clamped, omits the negative transverse stiffness of compressed springs, which makes the matrix positive
 /// semidefinite.
 void add_tangent(const Springs& springs, const Particles& particles, const State& state, Curvature curvature,
                  Tangent& tangent);

@@ -4,7 +4,7 @@
 // The stepper proposes x* and v*. If the gap of x* is negative (|x* - centre| < R, or (x* - point) . normal < 0, margin
 // included):
 //   1. position: the particle is put on the surface, which pushes it by p along the outward normal n;
-//   2. friction on the position: its tangential displacement in the step, relative to x_n, is reduced by at most mu p
+//   2. friction on the position: the particle's tangential displacement from x_n is reduced by at most mu p
 //      (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
 //   3. velocity: the inward normal component is removed (or reversed times e), and the tangential component is reduced
 //      by at most mu times the change of the normal component.

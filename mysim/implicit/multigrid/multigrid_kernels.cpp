@@ -33,8 +33,8 @@ FORCE_INLINE T* row_of(T* field, int tiles, int row) {
   return field + row * row_length(tiles, 3) + left_halo * tile_size<3>;
 }
 
-/// Visits the rows in order. begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the next two);
-/// finish(row, sums) is called once all contributions to a row have been added. `memory`: three rows.
+/// Visits the rows in order. begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the next two).
+/// As soon as nothing more will be added to a row, finish(row, sums) is called for it. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
 FORCE_INLINE void over_rows(int rows, int tiles, T* memory, Begin begin, Finish finish) {
   const long length = row_length(tiles, numbers), first = left_halo * tile_size<numbers>;
@@ -161,7 +161,7 @@ FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, co
   }
 }
 
-/// K x of the springs that start in a row.
+/// Adds the forces K x of the springs that start in a row to the sums of the rows of both ends.
 template <class T>
 FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* const* sums) {
   const long length = row_length(m.tiles, 3);

@@ -1,23 +1,23 @@
 // Linear systems of implicit steps on a cloth: A u = b with A = inertia + stiffness of the springs, never assembled.
 //
-// Conjugate gradients need many iterations when springs are stiff for the step size: a pull travels by one spring
-// per iteration. On a grid of every second row and column it travels twice as fast, and on a grid of every fourth row
-// and column, four times as fast. The error that remains on the finest grid consists of short waves, which a few rounds
-// of relaxation remove. The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods
-// and Applications, Springer 1985). A coarse grid carries the total mass, and has springs of the same stiffness and
-// twice the length, because the elastic energy of an area does not depend on the grid. An approximate preconditioner
-// suffices: it works in single precision, with half the memory, and the outer iteration corrects it in double
-// precision.
+// Conjugate gradients need many iterations when springs are stiff for the step size: a pull travels by one spring per
+// iteration. On a grid of every second row and column it travels twice as fast, and on a grid of every fourth row and
+// column, four times as fast. The error that remains on the finest grid consists of short waves, which a few rounds of
+// relaxation remove. The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods and
+// Applications, Springer 1985). A coarse grid carries the total mass, and has springs of the same stiffness and twice
+// the length, because the elastic energy of an area does not depend on the grid. The preconditioner need not be exact.
+// It works in single precision, with half the memory, and the outer iteration, in double precision, corrects its
+// result.
 //
 // The relaxation is Chebyshev's, with the inverse 3 x 3 diagonal blocks. The eigenvalues of D^-1 A are below 2 for any
 // springs: the springs' part of u.A u is the sum of (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b), and the sum
-// of the right-hand sides is twice their part of u.D u.
+// of these right-hand sides is twice the springs' part of u.D u.
 //
 // The memory layout is that of the fused step (simd/cloth_grid/fused_step.h), with as many lanes for double as for
 // single precision, so that both use the same order: column c is in lane c / tiles of tile c % tiles. The coarse
 // columns are the even tiles, so transfers between grids move no data across lanes. Each product is one pass over the
-// rows: the forces on a row are complete once its own springs have been evaluated, so the row can then be modified in
-// place.
+// rows: as soon as a row's own springs have been evaluated, the forces on it are complete, and the row can be modified
+// in place.
 #pragma once
 
 #include "mysim/simd/cloth_grid/fused_step.h"

@@ -12,7 +12,7 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // the number of tiles can be halved down to one or three; at most a third of the lanes stays empty
+  // the number of tiles can be halved repeatedly, down to one or three; at most a third of the lanes stays empty
   int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
   return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};
@@ -108,13 +108,13 @@ struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
 };
-// The next grid resolves waves at least four of this grid's springs long, whose eigenvalues are below about 0.4.
-// In trials on hanging cloths of 24 to 128 columns at 60 and 240 steps per second, one to four rounds were equally
+// Waves at least as long as four of this grid's springs are left to the next grid; their eigenvalues are below about
+// 0.4. In trials on hanging cloths of 24 to 128 columns at 60 and 240 steps per second, one to four rounds were equally
 // fast.
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
 /// If inertia is the share s of the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev iteration reduces
 /// the error by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003,
-/// 12.3.2). If the share is at least this, five rounds reduce it tenfold, with less work than a coarser grid.
+/// 12.3.2). If the share is at least this, five rounds reduce the error tenfold, with less work than a coarser grid.
 constexpr double enough_inertia = 0.2;
 /// Chooses enough rounds to reduce the error tenfold or, if there is less inertia, for a pull to cross the grid.
 ChebyshevSmoother coarsest_smoother(const Level& level) {

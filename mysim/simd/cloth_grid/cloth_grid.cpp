@@ -29,7 +29,7 @@ std::vector<int> candidate_columns(const Springs& springs, int particles) {
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));
   std::vector<int> columns;
   if (farthest <= 2) columns.push_back(particles);  // a single row
-  // the farthest spring leads two rows ahead, or to the next row and right, straight ahead or left
+  // the farthest spring leads two rows ahead, or one row ahead to the right, straight or to the left
   for (const int c : {farthest / 2, farthest - 1, farthest, farthest + 1})
     if (c > 1 && particles % c == 0 && std::find(columns.begin(), columns.end(), c) == columns.end())
       columns.push_back(c);

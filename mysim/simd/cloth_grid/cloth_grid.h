@@ -83,10 +83,10 @@ class ClothGridMemory {
   ClothGrid<T> grid_{};
 };
 
-/// A cloth split into slabs of rows, one per thread. A slab has two halo rows of each neighbour around its own, because
-/// a spring spans at most two rows. Before a fused step it receives the positions that the neighbour sent after the
-/// previous fused step, through two alternating buffers, so that threads wait for each other only once per fused step.
-/// Forces are summed in the order of a single slab, which gives the same bits for any number of slabs.
+/// A cloth split into slabs of rows, one per thread. Around its own rows, a slab has two halo rows of each neighbour,
+/// because a spring spans at most two rows. Before a fused step it receives the positions that the neighbour sent after
+/// the previous fused step, through two alternating buffers, so that threads wait for each other only once per fused
+/// step. Forces are summed in the order of a single slab, which gives the same bits for any number of slabs.
 template <class T>
 class Slabs {
  public:

@@ -26,8 +26,8 @@
 namespace crosscheck::simd {
 
 inline constexpr int directions = 6;  // spring directions, towards later particles
-/// Offset between the ends of a spring: to the next particle or the next but one in the row; to the next row, straight
-/// or along one of the diagonals; or straight to the next row but one.
+/// Offset between the ends of a spring: to the next particle of the row or the one after it; to the next row, straight
+/// or along a diagonal; or straight to the row after the next.
 struct Direction {
   int down, right;
 };
@@ -70,8 +70,8 @@ struct BoundingPlane {
   double friction, restitution;       // 1
 };
 
-/// Parameters of a fused step besides the springs. ClothGrid::damping is not stored as 1 - damping, whose rounding
-/// would lose a fraction of it in every step.
+/// Parameters of a fused step besides the springs. ClothGrid stores `damping` and not 1 - damping, because rounding the
+/// latter would lose a fraction of the damping in every step.
 template <class T>
 struct KickDrift {
   T uniform_acceleration[3];    // m/s^2

@@ -16,8 +16,8 @@ FORCE_INLINE void clear(T* row, long numbers) {
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
-/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. The only lane of a halo tile that
-/// is not a copy holds 0, so that the number beyond the tile to which it is added does not change.
+/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. One lane of each halo tile copies
+/// nothing and holds 0, so adding it to the number beyond the copied tile does not change that number.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
   assert(tiles >= 1);

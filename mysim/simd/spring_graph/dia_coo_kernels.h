@@ -13,9 +13,9 @@ namespace crosscheck::spring_graph {
 //
 // The kernel visits tiles of eight particles. It first computes the springs that begin in a tile: it sums their forces
 // on the tile in registers, and stores each force in its diagonal's ring. Then it finishes the previous tile: the
-// springs that end at a particle are `offset` places back in the ring of each diagonal, contiguous again. So each
-// spring is computed once, and each force is written and read once while it is in the cache, for graphs of any size: a
-// ring is about as long as its offset.
+// forces of the springs that end at a particle are `offset` places back in the ring of each diagonal, contiguous again.
+// So each spring is computed once, and each force is written and read once while it is in the cache, for graphs of any
+// size: a ring is about as long as its offset.
 //
 // Stiffness and rest length of eight springs form a coefficient row. Equal rows share their memory: in a large grid,
 // where nearly all are equal, this saves most of the traffic to main memory.
@@ -43,9 +43,9 @@ struct DiaSprings {
 //
 // Positions and forces are records of four numbers, x y z 0, which are fetched whole; this is cheaper than gathering
 // coordinates. As many springs as a register has lanes are processed together. The records of their ends are
-// subtracted, and the sums of squares and the laws are computed lane by lane. Each record times its lane is then added
-// to one end and subtracted from the other, spring after spring, so that no two collide. Springs are sorted by their
-// first ends, which keeps memory accesses close together.
+// subtracted, and the sums of squares and the laws are computed lane by lane. Then, spring after spring, the difference
+// times the number in its lane is added to one end and subtracted from the other, so that no two collide. Springs are
+// sorted by their first ends, which keeps memory accesses close together.
 
 struct CooSprings {
   int particles, springs;  // springs: whole tiles, padded with springs between two extra particles

@@ -12,9 +12,9 @@ enum class InstructionSet;
 }
 
 /// Adds the forces of the plain edge loop of terms/springs.h, in another order. Each force is computed in the cheapest
-/// of three ways (simd/spring_graph/spring_layout.h): by the offset of its spring (DIA), in a list of edges (COO), both
-/// in simd/spring_graph/dia_coo_kernels.h, or, if there are too few springs for lanes, by the plain loop. It has the
-/// same bits in each way. Results depend neither on threads nor on the instruction set.
+/// of three ways (simd/spring_graph/spring_layout.h), with the same bits in each: by the offset of its spring (DIA), in
+/// a list of edges (COO), or, if there are too few springs for lanes, by the plain loop. The first two are in
+/// dia_coo_kernels.h. Results depend neither on threads nor on the instruction set.
 class SpringKernel {
  public:
   /// `particles`: number of particles. The law must be Hooke's or Bullet's link law.
