@@ -1,5 +1,5 @@
-// A scene in the form of its file, particle by particle and spring by spring, which is drawn at random and then reduced
-// step by step.
+// A scene in the form of its file, as a list of particles and springs. It is drawn at random and then reduced step by
+// step.
 #pragma once
 
 #include <array>

@@ -34,7 +34,7 @@ class Draw {
 };
 
 /// Units of a scene: a spring's length, a particle's mass, and the frequency of a particle on one spring. The weight of
-/// a particle stretches such a spring by a hundredth to a quarter.
+/// a particle stretches such a spring by a hundredth to a quarter of its length.
 struct Units {
   double length, mass, omega;  // m, kg, rad/s
   double k() const { return mass * omega * omega; }
@@ -116,10 +116,10 @@ class DraftMaker {
     if (random_.chance(0.25)) draft.law = SpringLaw::bullet_link;
   }
 
-  /// Sets the step so that `steps` steps lie between consecutive samples, each at most `part` of 1 / rate for the
-  /// fastest rate (the stability limit is 2 / omega). The step is a power of two, which every precision represents
-  /// exactly. Explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below e^2.6 in 512 steps of a tenth, and
-  /// below e^1.7 in 2048 of a 25th.
+  /// Sets the step to at most `part` / rate for the fastest rate (the stability limit is 2 / omega), with `steps` steps
+  /// between samples. The step is a power of two, which every precision represents exactly. In explicit Euler a
+  /// vibration grows by a factor 1 + (h omega)^2 / 2 per step: by less than e^2.6 in 512 steps with part = 0.1, and by
+  /// less than e^1.7 in 2048 steps with part = 0.04.
   void time(int samples, int steps, double part = 0.1) {
     const double rate = std::max(draft.largest_rate(), draft.rotation ? 0 : units_.omega);
     draft.step = std::exp2(std::floor(std::log2(part / rate)));
@@ -162,14 +162,14 @@ void hanging_chain(Draw& random, DraftMaker& make, const Units& units) {
   const bool drag = random.chance(0.5);
   const int masses = random.whole(1, 2);
   // The slowest vibration has the frequency omega / 2n or more. Drag damps it critically. Dashpots of 2 m omega damp
-  // the vibration of a single spring critically, and the slowest vibration at a rate of its squared frequency divided
-  // by omega. Twelve time constants leave 1e-5.
+  // the vibration of a single spring critically, and the slowest vibration at the rate (its frequency)^2 / omega. After
+  // twelve time constants, 1e-5 of the motion is left.
   const double slowest = units.omega / (2 * masses), decay = drag ? slowest : slowest * slowest / units.omega;
   for (int i = 0; i <= masses; ++i) make.particle({0, -units.length * i, 0}, 0);
   for (int i = 0; i < masses; ++i) make.spring(i, i + 1, 0, drag ? 0 : 1.0);
   make.pin(0), make.gravity();
   if (drag) make.draft.gamma = to_digits(2 * slowest, 3);
-  // explicit Euler is stable while h omega^2 is below the drag rate, also for springs of four times the stiffness
+  // explicit Euler is stable while h omega^2 is below the drag rate; this holds even for springs four times as stiff
   const double part = drag ? std::min(0.1, *make.draft.gamma / (8 * make.draft.largest_rate())) : 0.1;
   make.time(32, 1, part);
   make.time(32, static_cast<int>(std::ceil(12 / decay / make.draft.duration)), part);

@@ -12,7 +12,7 @@
 namespace crosscheck {
 
 /// Draws a scene that depends only on seed and index: 1 to 30 particles, with steps of at most a twentieth of the
-/// critical one. The index modulo drawn_kinds selects the kind of scene, so that every relation applies to some scenes.
+/// stability limit. The index modulo drawn_kinds selects the kind of scene, so that every relation applies to some.
 SceneDraft draw(unsigned seed, long index);
 inline constexpr int drawn_kinds = 12;
 

@@ -158,7 +158,7 @@ class Shrinker {
     return changed;
   }
 
-  /// Removes runs of consecutive parts, from half of all parts down to single ones.
+  /// Removes groups of consecutive parts: first half of all parts, then smaller groups, down to single parts.
   bool without_parts(size_t count, const LeaveOut& out) {
     bool changed = false;
     for (size_t run = (count + 1) / 2; run > 0; run = run == 1 ? 0 : (run + 1) / 2)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Proves the job-array form of sweeps against a real Slurm on this machine: munge, slurmctld and slurmd on loopback, an
-# array of four tasks of which one is killed and requeued; the joined tables must equal those of one plain run. As root,
-# with Debian's slurmctld, slurmd, slurm-client and munge; from a built tree. Not part of the test suite.
+# Proves the job-array form of sweeps against a real Slurm on this machine: munge, slurmctld and slurmd on loopback, and
+# an array of four tasks, one of which is killed and requeued. The joined tables must equal those of one plain run. Run
+# it as root in a built tree, with Debian's slurmctld, slurmd, slurm-client and munge. Not part of the test suite.
 set -euo pipefail
 
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -19,7 +19,7 @@ finish() {
   [ -f "$work/slurmd.pid" ] && kill "$(cat "$work/slurmd.pid")" 2>/dev/null
   [ -f "$work/slurmctld.pid" ] && kill "$(cat "$work/slurmctld.pid")" 2>/dev/null
   [ -n "${munge_pid:-}" ] && kill "$munge_pid" 2>/dev/null
-  # the daemons write to it until they have ended
+  # the daemons write to this folder until they have ended
   for _ in $(seq 50); do rm -rf "$work" 2>/dev/null && return; sleep 0.2; done
 }
 trap finish EXIT
@@ -67,13 +67,13 @@ for _ in $(seq 50); do sinfo -h -o %t 2>/dev/null | grep -q idle && break; sleep
 sinfo -h -o %t | grep -q idle || die "the node is not idle: $(sinfo -h)"
 say "$(sinfo --version), one node, 2 CPUs"
 
-# one plain run, then the array; a cache of its own, so that both compute
+# one plain run, then the array, each with its own cache, so that both compute
 cd "$source"
 CROSSCHECK_CACHE=$work/cache "$program" experiment "${names[@]}" --out "$work/plain" >"$work/plain.log" 2>&1 || die "the plain run failed"
 job=$(CROSSCHECK_CACHE=$work/cache-array sbatch --parsable --array=1-4 --output="$work/slurm-%a.out" experiments/sweep/array.sbatch "$work/array" "${names[@]}")
 say "array $job of 4 tasks"
 
-# one task is killed when it has finished something and not all
+# kills one task that has finished some of its points, but not all
 state() { squeue -h -r -j "$job" -o '%K %t' 2>/dev/null; }
 victim=
 for _ in $(seq 600); do

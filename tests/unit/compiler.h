@@ -16,8 +16,8 @@ inline ProgramResult check_syntax(const std::filesystem::path& file, const std::
   std::vector<std::string> command = {CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only"};
   command.insert(command.end(), options.begin(), options.end());
   std::istringstream folders(CROSSCHECK_INCLUDES);
-  // skips the compiler's own folder, which is searched last by default; naming it would move it forward, so that cmath
-  // would no longer find its math.h
+  // skips /usr/include, which the compiler searches last by default; naming it would move it forward, so that cmath
+  // would no longer find math.h
   for (std::string folder; std::getline(folders, folder, '|');)
     if (folder != "/usr/include") command.insert(command.end(), {"-isystem", folder});
   command.insert(command.end(), {"-I", CROSSCHECK_SOURCE, file.string()});

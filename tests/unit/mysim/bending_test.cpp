@@ -52,8 +52,8 @@ TEST(Bending, OfUniformCurvatureHasTheEnergyOfAPlate) {
 }
 
 TEST(Bending, IsTheSameInEveryDirection) {
-  // a^2 + b^2 + 2 c^2 is the same for a cylinder at any angle, away from the edges, so the energy per stencil of each
-  // kind is divided by the area of the stencil and compared
+  // a^2 + b^2 + 2 c^2 is the same for a cylinder at any angle. Edges lack stencils, so the energy of each kind of
+  // stencil is divided by the area that its stencils cover, before the kinds are added.
   const Scene scene = sheet();
   const double along_u = (nu - 2) * (nv - 1), along_v = (nu - 1) * (nv - 2), cells = (nu - 1) * (nv - 1);
   for (const double angle : {0.3, 0.8, 1.2}) {

@@ -358,7 +358,7 @@ TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
   State s = frame.start;
   double furthest = 0, path = 0;
   for (int n = 0; n < 10000; ++n) {
-    // the sphere's acceleration in this step, as its change of velocity
+    // minus the sphere's mean acceleration in this step
     const Vec3 inertial = -(velocity_at(motion, (n + 1) * h) - velocity_at(motion, n * h)) / h;
     frame.model.find<Gravity>()->acceleration = Vec3(0, -9.81, 0) + inertial;
     System f(frame.model);

@@ -335,7 +335,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, monitor);
       if (std::isinf(s.limit(200, 2))) {
         // Rules that solve the whole step are stable. One Gauss-Seidel pass leaves residuals in springs, whose energy
-        // may look like a blow-up, but the cloth moves no further than it falls, plus its size.
+        // may look like a blow-up, but no particle moves farther than the fall plus the size of the cloth.
         if (s.evaluations == 0) {
           EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
         }
@@ -343,7 +343,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
         for (const Points& x : t.x) EXPECT_LT(x.cwiseAbs().maxCoeff(), 3);
         continue;
       }
-      // A spring may exceed its allowed length before two differences reveal its speed.
+      // The verdict may be stretch: a spring may exceed its allowed length before two differences reveal its speed.
       EXPECT_NE(out.verdict, Verdict::ok);
       EXPECT_LT(out.end, 2);
       EXPECT_FALSE(out.reason.empty());
@@ -369,8 +369,8 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfOneSpringAtAnyStep) {
     // The largest force is the inertia m v / (h/2) or the spring's k x = 30 N.
     EXPECT_LT(error, 1e-10 * (2 * 2 / h + 30) * 2 * 5) << h;
   }
-  // in contrast, with a rule of the same order that does not conserve it, the energy oscillates by a relative
-  // (h omega)^2 / 8 or more
+  // in contrast, leapfrog has the same order but does not conserve the energy: its error is a relative (h omega)^2 / 8
+  // or more
   EXPECT_GT(largest_energy_error(stepper("leapfrog"), scene, {1e-2, 5, 100}), 1e-3);
 }
 
@@ -396,7 +396,7 @@ TEST(ImplicitMidpoint, EnergyOfASwingingChainIsBoundedToOrderTwo) {
   for (const double h : {2e-3, 1e-3, 5e-4}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 3, 300});
     fmt::print("swinging chain, h = {}: energy error {:.3g} J\n", h, error);
-    // samples meet the maximum at different phases, which gave slopes of 2.0 to 2.1
+    // samples may miss the maximum, at another phase for each step; the measured slopes were 2.0 to 2.1
     if (before > 0) {
       EXPECT_NEAR(slope(before, error), 2, 0.3);
     }

@@ -55,7 +55,7 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
               if (net.model.particles.pinned[i] && !HasTangent<T>) continue;
               const double slope_there = (energy(axis, i, step) - energy(axis, i, -step)) / (2 * step);
               // The error is eps^(2/3) times E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law
-              // is no steeper) and eps^(2/3) times E.
+              // is no steeper), plus eps^(2/3) times E.
               EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3)) << T::name;
             }
           ++energies;

@@ -29,7 +29,7 @@ std::string hash_of(const Scene& scene, const Stepper& rule) {
   }
 }
 
-/// With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
+/// With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table first.
 TEST(GoldenHashes, AreThoseOfTheTable) {
   GoldenHashes computed;
   for (const std::string& name : shipped_scene_names()) {
@@ -73,7 +73,7 @@ std::array<double, 3> projections(const Points& x) {
   return sums;
 }
 
-/// Runs implicit rules for 20 steps on small scenes. With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
+/// Runs implicit rules for 20 steps on small scenes. With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table first.
 TEST(GoldenProjections, OfImplicitRulesAgreeWithTheTable) {
   const std::filesystem::path file = CROSSCHECK_SOURCE "/reference/baselines/implicit-projections.csv";
   std::map<std::string, std::array<double, 3>> computed;

@@ -77,7 +77,7 @@ TEST(Runs, KeepAngularMomentumWhereTheRuleIsSymplecticAndToItsOrderElsewhere) {
     }
 }
 
-/// The scene rotated about the origin and then translated, with everything that has a direction.
+/// The scene rotated about the origin and then translated, including everything in it that has a direction.
 Scene turned(Scene scene, const Eigen::Matrix3d& turn, const Vec3& shift) {
   scene.start.x = ((turn * scene.start.x).colwise() + shift).eval();
   scene.start.v = (turn * scene.start.v).eval();

@@ -1,4 +1,4 @@
-// The library behind one header: the numbers of mysim's own run, refusals with a message, an observer that ends a run.
+// The library's single header: the same numbers as mysim's own runs, refusals with reasons, observers that end a run.
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ mysim::Network oscillator() {
 
 TEST(Library, ANetworkSwingsAsItsClosedForm) {
   // omega = sqrt(k / m) = 20 rad/s. The frequency of leapfrog is too high by a relative (omega h)^2 / 24. In 1 s this
-  // is a phase error of omega^3 h^2 / 24, and the same fraction of the amplitude of 0.1 m where the motion is fastest.
+  // is a phase error of omega^3 h^2 / 24. Times the amplitude, 0.1 m, this is the largest error of the position.
   const mysim::Scene scene = mysim::Scene::of(oscillator(), 1);
   EXPECT_LE(scene.step(), 2 * M_PI / 20 / 20 * (1 + eps));
   double worst = 0, first = -1, drift = 0;

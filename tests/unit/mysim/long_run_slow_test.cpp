@@ -31,15 +31,15 @@ TEST(AMillionSteps, SymplecticRulesKeepTheEnergyBounded) {
     if (!s.symplectic) continue;
     // Implicit steps cost about fifty times as much, so these rules run fewer of them. Their first tenth must still
     // exceed the 20 s after which the chain swings irregularly and fast.
-    // A drift would make the last tenth ten times worse than the first. A bounded error recurs, but it is caused by the
-    // fastest moments of irregular swings, which differ by up to a factor of two.
+    // A drift would make the last tenth ten times worse than the first. A bounded error varies by up to a factor of
+    // two, because it is largest in the fastest moments of irregular swings.
     EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 3) << s.name;
   }
 }
 
 TEST(AMillionSteps, RulesThatAreNotSymplecticDrift) {
-  // rk4 damps (h omega)^6 / 72 of the energy of the fastest vibrations in each step (h omega = 0.2), and eventually all
-  // of it
+  // in each step, rk4 damps (h omega)^6 / 72 of the energy of the fastest vibrations (h omega = 0.2), and thus
+  // eventually all of it
   EXPECT_GT(late_over_early(stepper("rk4"), 1e-3, 1000000), 3);
 }
 
@@ -93,12 +93,12 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
       const bool cloth = !scene.triangles.empty();
       if (!s.symplectic && (s.order == 1 || cloth)) continue;
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
-      // higher-order rules are at round-off at a quarter of the scene's step
+      // at a quarter of the scene's step, higher-order rules would be at round-off
       const double h = scene.step * (s.order < 4 ? 0.25 : cloth ? 1 : 2);
       const double order = slope(imbalance(s, scene, {h, 1, 20}), imbalance(s, scene, {h / 2, 1, 20}));
       fmt::print("{:12} {:18} order of the balance {:.2f}\n", name, s.name, order);
-      // The next error term is smaller by a factor of h omega, which is below 0.1 up to order 2 (on cloth, it is 0.2
-      // squared), and 0.4 squared at higher orders. At these, the ledger's integrals, of order 4, may dominate.
+      // The next error term is smaller by a factor of less than 0.1 up to order 2 (h omega; on cloth, 0.2 squared), and
+      // of 0.4 squared at higher orders. There, the ledger's integrals, of order 4, may dominate.
       EXPECT_GT(order, std::min(s.order, 4) - (s.order < 4 ? 0.1 : 0.25));
       EXPECT_LT(order, s.order + (s.order < 4 ? 0.1 : 0.25));
     }

@@ -499,7 +499,7 @@ TEST_F(TemporaryFolders, WhatAKilledProgramLeavesTheNextStartRemoves) {
   wait_for(3);
   kill(child, SIGKILL);
   end_of(child);
-  // The processes die with their parent, but nothing here can wait for them.
+  // The processes die with their parent. Nothing here can wait for them, so the next start is repeated.
   const auto next = [] { return run_supervised([] { return 7; }); };
   int status = 0;
   for (int attempt = 0; attempt < 200; ++attempt) {

@@ -80,7 +80,7 @@ TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
               sphere =
                   small_scene(text(fmt::format("[sphere]\ncentre = [0, {0}, 0]\nradius = {1}\n", -radius, radius)));
   for (const NamedRule& rule : rules()) {
-    if (rule.stepper.evaluations == 0) continue;  // these are accurate relative to the largest coordinate only
+    if (rule.stepper.evaluations == 0) continue;  // implicit: accurate relative to the largest coordinate only
     SCOPED_TRACE(rule.name);
     const Trajectory a = path_of(rule, plane, {1e-3, 1, 20}), b = path_of(rule, sphere, {1e-3, 1, 20});
     // rounding errors of coordinates of 1e7 m, plus the sphere's drop below the plane
@@ -116,7 +116,7 @@ TEST(PlaneFile, ReportsWhatIsWrongWithFileLineAndKey) {
       {"[[plane]]\npoint = [0, -1, 0]\n", "normal"},
   };
   for (const auto& [text, expected] : bad) {
-    // The pin is particle 1, the upper one, which a plane from above excludes.
+    // Particle 1 is the pin. It is the upper one, so a plane from above excludes it.
     const std::string message = message_of(scene_text(particle + pins + text));
     EXPECT_TRUE(contains(message, expected)) << text << message;
     EXPECT_TRUE(contains(message, "bad.toml:")) << message;
@@ -308,8 +308,8 @@ TEST(Plane, RotatedAndScaledScenesGiveTheSameMotion) {
     SCOPED_TRACE(rule.name);
     const Scene si = parse_scene(text(1, 1), "si"), milli = parse_scene(text(1e3, 1e3), "milli");
     const Trajectory a = path_of(rule, si, {1e-3, 1, 20}), b = path_of(rule, milli, {1, 1e3, 20});
-    // Decimal units are rounded, which may, rarely, move an impact to the end of a different step with contact on whole
-    // steps.
+    // With contact on whole steps, the rounding of decimal units may, rarely, move an impact to the end of a different
+    // step.
     for (int i = 0; i < a.frames(); ++i)
       EXPECT_LT((a.x[i] - 1e-3 * b.x[i]).norm(), 1e-9 + 10 * unsolved(rule, 1, 1e-3)) << i;
   }

@@ -74,7 +74,7 @@ eye = [0, 0, 9]
 target = [0, 0, 0]
 )";
 
-/// The whole scene with one line replaced; an empty text keeps the line count.
+/// The whole scene with one line replaced. If `text` is empty, an empty line remains, which keeps the line numbers.
 std::string with_line(int number, const std::string& text) {
   std::istringstream in(whole);
   std::string out, line;

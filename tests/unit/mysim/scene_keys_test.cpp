@@ -79,7 +79,7 @@ TEST(SceneKeys, AreAllRead) {
   EXPECT_EQ(springs->law, SpringLaw::bullet_link);
   const auto* dashpots = s.model.find<Dashpots>();
   ASSERT_TRUE(dashpots);
-  EXPECT_EQ(dashpots->list.size(), springs->list.size());  // all of the grid, and the single one
+  EXPECT_EQ(dashpots->list.size(), springs->list.size());  // all springs of the grid, and the single spring
   EXPECT_EQ(dashpots->list.front().c, 0.03);
   EXPECT_EQ(dashpots->list.back().c, 0.25);
   const auto* constraints = s.model.find<Constraints>();

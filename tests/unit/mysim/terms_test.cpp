@@ -261,7 +261,7 @@ TEST(Aerodynamics, OnlyTheRelativeVelocityCounts) {
     const Vec3 boost = random.vector();
     net.state.v.colwise() += boost;
     Aerodynamics& air = *net.model.find<Aerodynamics>();
-    // Gusts act on the mean: replace them by a steady wind of the same value at this time.
+    // Gusts scale the mean, so they would also scale the boost: replace them by a steady wind of the same value.
     air.velocity = {air.velocity.at(net.state.t) + boost, std::nullopt};
     EXPECT_LT((force_of(air, net) - f).cwiseAbs().maxCoeff(), 64 * eps * f.cwiseAbs().maxCoeff() + 64 * eps);
   }
