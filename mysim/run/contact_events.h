@@ -15,8 +15,8 @@
 // Gauss-Seidel iteration (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; M. Jean,
 // Comput. Methods Appl. Mech. Engrg. 177, 1999).
 //
-// The order is 2, because a lasting contact displaces the particle by h^2 N / 2 within a step, so that b is wrong by
-// O(h^2), and an impact changes b by O(h), but in only one step. No additional acceleration is evaluated. Dashpots and
+// The order is 2, although b is wrong: by O(h^2) during a lasting contact, which displaces the particle by h^2 N / 2
+// within a step, and by O(h) at an impact, but only in that step. No additional acceleration is evaluated. Dashpots and
 // air depend on speeds, which contact changes by h N after the evaluation, so with these terms the order is 1. On a
 // moving sphere with friction a particle sticks and slips, and a slow slide turns towards the force within |w| / (mu
 // N), which is less than a step. The order measured from two step sizes then varies from -0.8 to 5.7. Only the trend

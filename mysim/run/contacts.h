@@ -40,8 +40,8 @@ using ContactFunction = double (*)(const Surface&, const Vec3& origin, const Vec
                                    Eigen::Ref<Vec3> v);
 
 /// Applies every surface, each in its own frame, to a particle that was at x_n with v_n at time t_n and would be at x
-/// with v at t. Returns the energy lost in the contacts (J/kg; 0 without `with_loss`, because it costs as much as the
-/// contact itself), or nothing if no surface was touched.
+/// with v at t. Returns the energy lost in the contacts (J/kg), or nothing if no surface was touched. Without
+/// `with_loss`, the energy is 0, which saves as much time as the contact itself takes.
 std::optional<double> resolve_surfaces(std::span<const Surface> surfaces, ContactFunction act, double t_n, double t,
                                        const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,
                                        bool with_loss = true);

@@ -147,10 +147,10 @@ class MotionBoundsCache {
 /// or one that lies in a hollow, has far more energy than it can ever convert to motion.
 /// tests/unit/experiments/verdict_trials.cpp counts wrong verdicts.
 ///
-/// The monitor observes the states that every engine provides (verdict_stride, run.h): every step of most runs.
-/// Differences of states more than a step apart are mean velocities, which are no larger: no good run is condemned, but
-/// only lengths and non-finite numbers reveal motion that reverses between two states. If no true motion is available
-/// (hard distances; a monitor without a scene), K^ > 10 B is a failure, and so is thirty times the initial length.
+/// The monitor observes the states that every engine provides (verdict_stride, run.h): every step of most runs. Speeds
+/// from states more than a step apart are mean velocities, which are no larger, so no good run is condemned. Motion
+/// that reverses between two states shows only in lengths and non-finite numbers. If the true motion is unknown (hard
+/// distances; a monitor without a scene), a run fails at K^ > 10 B, or at thirty times the initial length.
 ///
 /// Verdict::frozen if by the first sample no free particle has moved or gained speed by even one bit, although a free
 /// particle that touches no surface was accelerated at the start: an engine that dropped its forces, or put a body to

@@ -18,9 +18,9 @@ struct Key {
 };
 
 /// Checks the keys of the whole file before any value is read. Throws InputError at the first table that is malformed,
-/// lacks keys (the message lists them with their expected content) or has unknown keys (with the closest known key, or
-/// the table where the key belongs). For text that is not TOML, the message suggests the likely intent. `name` stands
-/// for the file in messages.
+/// lacks keys or has unknown keys. The message lists missing keys with their expected content; for an unknown key, it
+/// names the closest known key, or the table where the key belongs. For text that is not TOML, it suggests the likely
+/// intent. `name` stands for the file in messages.
 void check_keys(std::string_view text, const std::string& name, std::span<const Key> keys);
 
 /// Maximum per run.

@@ -44,9 +44,9 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// Length scale of the scene and of its round-off (m): diagonal of the initial bounding box. For a single particle,
-  /// the distance that its speed and steady forces may carry it, limited by the radius of the smallest sphere and the
-  /// distance of opposite planes; in a first-order scene its distance from the origin; 1 if it cannot move.
+  /// Length scale of the scene and of its round-off (m): diagonal of the initial bounding box. A single particle has no
+  /// extent; its scale is the way that speed and steady forces may carry it, at most the smallest sphere's radius and
+  /// the distance of opposite planes, or, in a first-order scene, its distance from the origin. 1 if it cannot move.
   double size() const;
 };
 

@@ -44,10 +44,10 @@ using StepFunction = void (*)(System&, State&, double h, Workspace&);
 /// is. For omega = 0, the limit due to drag alone.
 using StabilityLimit = double (*)(double omega, double gamma);
 
-/// A rule that consists of kicks v' = v + h F/m and drifts x' = x + h v' only. It is a sequence of leapfrogs (half
-/// drift, kick, half drift) over fractions of the step, with drag averaged over old and new velocity, or, if
-/// `kick_first`, of whole kicks followed by whole drifts, with drag at the old velocity. Such rules have a fast path on
-/// regular cloths (mysim/simd/cloth_grid/).
+/// A rule that consists of kicks v' = v + h F/m and drifts x' = x + h v' only: a sequence of leapfrogs (half drift,
+/// kick, half drift) over fractions of the step, with drag averaged over old and new velocity. If `kick_first`, each
+/// part is a whole kick, with drag at the old velocity, and a whole drift. Such rules have a fast path on regular
+/// cloths (mysim/simd/cloth_grid/).
 struct KickDriftComposition {
   std::vector<double> fractions;  // sum to 1
   bool kick_first = false;
