@@ -158,8 +158,8 @@ TEST(Plane, RestingParticlesLoseNothing) {
       const Scene scene = on_slope(angle, "friction = 0.6");
       Ledger ledger(scene.model, ContactLoss::reported);
       simulate(rule.stepper, rule.contact, scene, {1e-3, 1, 10}, ledger);
-      // J: rounding of m g h in a thousand steps. Explicit Euler is in contact in every other step only: free fall adds
-      // energy in one step and contact removes it in the next, which is no loss either.
+      // The bound is the rounding of m g h (J) in a thousand steps. Explicit Euler is in contact in every other step
+      // only: free fall adds energy in one step and contact removes it in the next, which is no loss either.
       for (const LedgerRow& row : ledger.rows()) EXPECT_NEAR(row.contact, 0, 1e-12 + unsolved(rule, 1, 1e-3)) << row.t;
     }
 }
@@ -210,8 +210,8 @@ TEST(Plane, ParticleBetweenTwoWallsReturnsAfterTwiceTheWayOverItsSpeed) {
     const double t = 20 * period;
     const auto off = [&](double h) { return std::abs(path_of(rule, scene, {h, t, 20}).x.back()(0, 0) - 0.3); };
     // In contact on whole steps, each impact puts the particle on the wall, up to the path v h of a step from its exact
-    // position. Located events count as contact within 1e-12 of the coordinates; here every impact falls on the end of
-    // a step.
+    // position. With located events, a particle within 1e-12 of the coordinates counts as touching. This error matters
+    // here, because every impact falls on the end of a step.
     for (const double h : {1e-3, 2.5e-4})
       EXPECT_LT(off(h), rule.contact == ContactRule::events ? 40 * 1e-12 * 6 : 40 * speed * h) << h;
   }
