@@ -230,13 +230,14 @@ std::vector<Method> find_methods(const std::string& list) {
 
 namespace {
 
-/// Observes free particles between the states on which verdicts are based.
+/// Observes free particles in more states than those on which verdicts are based.
 ///
-/// Largest speed: the verdict's differences over two states cannot show a vibration that reverses in every step. Such a
-/// vibration may be stable, if the step is near the rule's limit, and is then no failure.
+/// Records the largest speed. The verdict's speeds are differences over two states, which cannot show a vibration that
+/// reverses in every step. If the step is near the rule's limit, such a vibration may be stable, and is not a failure.
 ///
-/// Passages through a sphere: both ends of a step are outside, and its chord is deeper inside than the path may deviate
-/// from it: tau |dv| / 4, if the velocity changes by dv within a time tau, at one instant or evenly.
+/// Counts passages through a sphere. In a passage, both ends of a step are outside, and the chord between them reaches
+/// deeper into the sphere than the path can deviate from the chord. If the velocity changes by dv within a time tau, at
+/// one instant or evenly, this deviation is at most tau |dv| / 4.
 class StepObserver : public Observer {
  public:
   explicit StepObserver(const Scene& scene)
@@ -267,8 +268,8 @@ class StepObserver : public Observer {
       return sphere.motion ? Vec3(s.v.col(i) - velocity_at(*sphere.motion, s.t)) : Vec3(s.v.col(i));
     };
     const double bend = span / 4 * (seen(state) - seen(last_)).norm();
-    // positions on the surface, rounded to single precision, count as outside; a particle pushed out on the near side
-    // has touched the sphere and is not a passage
+    // positions on the surface that were rounded to single precision count as outside; a particle that was pushed out
+    // on the near side has touched the sphere, but has not passed through it
     const double outside = radius * (1 - 1e-6);
     if (!(from.norm() > outside && to.norm() > outside && to.dot(seen(last_)) > 0 &&
           (from + closest * way).norm() + bend < outside))
@@ -285,7 +286,7 @@ void add_remark(Outcome& out, const std::string& remark) { out.remark += (out.re
 
 }  // namespace
 
-/// simulate() (mysim/run/engine.cpp) runs mysim's methods.
+/// mysim's methods are run by simulate() (mysim/run/engine.cpp).
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);

@@ -64,7 +64,7 @@ bool is_first_peer(const MethodFamily& family);
 /// Selects families; an empty function selects all.
 using FamilyFilter = std::function<bool(const MethodFamily&)>;
 
-/// The family of a method's or family's name; names without a known prefix are programs of `exec:`.
+/// The family to which a method's or family's name belongs; names without a known prefix are programs of `exec:`.
 const MethodFamily& family_of(std::string_view name);
 
 struct FoundRule;
@@ -114,7 +114,7 @@ std::string short_name(const std::string& method);
 /// folders that distinguish it from the other programs in `beside`: "a/engine".
 std::string program_title(const std::string& method, std::span<const std::string> beside = {});
 
-/// The subject's representative with the contact rule that puts a touching particle back.
+/// The subject's representative with the contact rule that puts a touching particle back to its previous position.
 std::string sticky_method();
 
 inline constexpr std::string_view program_prefix = "exec:";
@@ -136,8 +136,9 @@ const Stepper* stepper_of(const Method& method);
 std::string rule_of(const Method& method);
 
 /// True if two methods follow the same rule on scenes with the model's ingredients, so that they must agree to rounding
-/// unless there is contact or a law differs; empty if unknown. A rule identified from runs holds for the ingredients of
-/// these runs, and for other ingredients only if the engine is built in, because such engines declare differing laws.
+/// unless there is contact or a law differs; empty if unknown. A rule that was identified from runs is valid for the
+/// ingredients of these runs. For other ingredients it is valid only if the engine is built in, because such engines
+/// declare differing laws.
 std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model);
 
 /// `list`: "a,b,c".

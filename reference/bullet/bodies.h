@@ -6,8 +6,8 @@
 namespace crosscheck::bullet {
 
 /// btDeformableMultiBodyDynamicsWorld, explicit: each piece of the spring graph is a body with its own mass-spring
-/// force and gravity force, as in Bullet's demos. There is no read-back: only the runs show whether the world keeps the
-/// bodies' stiffnesses apart. Throws Unsupported if a piece has several stiffnesses, or if the scene contains anything
+/// force and gravity force, as in Bullet's demos. The world has no read-back, so only its runs show whether each body
+/// keeps its own stiffness. Throws Unsupported if a piece has several stiffnesses, or if the scene contains anything
 /// but Hookean springs and gravity.
 Outcome run_bodies(const Scene& scene, const Run& run, Observer& observer);
 

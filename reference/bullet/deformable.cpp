@@ -29,7 +29,7 @@ btVector3 SceneForce::velocity(int particle) const {
 }
 
 btVector3 SceneForce::dashpot_axis(int a, int b) const {
-  // positions used by Bullet's own dashpots in the explicit world, and by the springs in the implicit world
+  // implicit world: the positions that the springs use; explicit world: those that Bullet's own dashpots use
   return carried_.implicit ? node(a).m_q - node(b).m_q : node(a).m_x - node(b).m_x;
 }
 
@@ -157,8 +157,8 @@ std::set<double> stiffnesses(const Springs& springs) {
   return all;
 }
 
-/// The common coefficient of dashpots along all springs, in the springs' order, as Bullet's own force requires;
-/// otherwise nullopt.
+/// The coefficient of the dashpots if all are equal and there is one dashpot along each spring, in the springs' order,
+/// as Bullet's own force requires; otherwise nullopt.
 std::optional<double> one_dashpot_each(const Springs* springs, const Dashpots* dashpots) {
   if (!springs || !dashpots || springs->list.size() != dashpots->list.size()) return std::nullopt;
   for (size_t i = 0; i < springs->list.size(); ++i)
@@ -296,7 +296,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(SceneForce* own)
   if (implicit_) {
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
-    // without aerodynamic force, a common velocity changes only the drag among Crosscheck's forces
+    // without aerodynamic force, drag is the only one of Crosscheck's forces that a common velocity changes
     if (own->carried().air) return own->carried().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, soft_body_, t_);
     placed.stop();
@@ -426,7 +426,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
-    // failed runs keep their verdict; a successful run with a limited speed has solved a different problem
+    // a failed run keeps its verdict; a successful run in which a speed was limited has solved a different problem
     if (!settings.defaults.margin)
       throw Unsupported(fmt::format(
           "Bullet's deformable world limits speeds to the body's box over the step, here to {:.3g} m/s", *limit));

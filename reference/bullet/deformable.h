@@ -11,9 +11,9 @@
 
 namespace crosscheck::bullet {
 
-// A force class for Bullet's deformable world that supplements Bullet's own forces: springs of more than two
-// stiffnesses, of other laws than Hooke's, or in implicit steps that cannot blow up; bending; dashpots that differ or
-// are attached to moved pins; drag that differs between particles or is implicit; wind.
+// A force class for Bullet's deformable world. It applies what Bullet's own forces cannot: springs with more than two
+// stiffnesses, with another law than Hooke's, or solved implicitly without blowing up; bending; dashpots that differ or
+// are attached to moved pins; drag that is implicit or differs between particles; and wind.
 
 /// In the explicit world, springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots separately and
 /// implicitly. In the implicit world all forces are evaluated at q = x + h v, v and t_{n+1}. The springs' matrix omits
@@ -44,10 +44,10 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Add the force of the springs only, or of the bending only, at m_q. The certificate's probe uses them, too.
+  /// Add only the spring force, or only the bending force, at m_q. The certificate's probe calls them, too.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   void add_bending_force(btScalar scale, TVStack& force);
-  /// A type that Bullet does not use: Bullet merges a force with the first one of the same type.
+  /// A type that Bullet does not use, because Bullet would merge the force with the first one of the same type.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(7);
   btDeformableLagrangianForceType getForceType() override { return type; }
 
@@ -77,8 +77,8 @@ class DeformableForces {
 
   void set_time(double t);  // s, for wind and pins
 
-  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, from the forces that the world's solver
-  /// holds.
+  /// Fills in gravity, drag rates, and probes of springs, bending, dashpots and wind. All are read from the forces that
+  /// the world's solver holds.
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:
@@ -92,7 +92,7 @@ class DeformableForces {
   double h_;
   bool implicit_;
   SoftBody& soft_body_;
-  double factor_ = 1;  // 1 - h gamma: the body's drag factor reduces a velocity by this factor in one step
+  double factor_ = 1;  // 1 - h gamma: in each step, the body's drag multiplies velocities by this factor
   double t_ = 0;
   std::map<std::string, std::string> mapped_;
   std::unique_ptr<btDeformableMassSpringForce> spring_force_;
@@ -106,19 +106,19 @@ struct DeformableSettings {
   bool tight = false;     // implicit: conjugate gradients stop at 1e-28 of the squared residual instead of Bullet's
                           // 2.2e-16
   bool projected = true;  // implicit: setUseProjection(true), without which the world freezes
-  double voxel = 0.005;   // m, of the distance field; Bullet's default
+  double voxel = 0.005;   // m, voxel size of the distance field; Bullet's default
   BulletDefaults defaults;
 };
 
 /// btDeformableMultiBodyDynamicsWorld.
 ///
 /// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force applies the springs if possible
-/// (at most two stiffnesses, Hooke's law). With the drag rate gamma, stiffness and gravity are then passed divided by
-/// (1 - h gamma), and the body's drag factor is h gamma, so that Bullet's rule v' = (v + h f/m)(1 - h gamma) equals
-/// drag as a force at v_n. Bullet then solves the dashpots implicitly.
+/// (at most two stiffnesses, Hooke's law). In this case, stiffness and gravity are divided by (1 - h gamma) first, and
+/// the body's drag factor is h gamma (gamma: drag rate), so that Bullet's rule v' = (v + h f/m)(1 - h gamma) equals
+/// drag as a force at v_n. After these forces, Bullet solves the dashpots implicitly.
 ///
-/// Implicit: one Newton step of backward Euler from q = x + h v, (M + h C + h^2 K(q)) dv = h f(q, v): mysim's
-/// implicit-euler+linear.
+/// Implicit: one Newton step of backward Euler from q = x + h v, that is, (M + h C + h^2 K(q)) dv = h f(q, v). This is
+/// mysim's implicit-euler+linear.
 ///
 /// Throws Unsupported with the reason.
 Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, const DeformableSettings& settings);

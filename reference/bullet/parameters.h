@@ -19,8 +19,9 @@ inline double pair_mass(const Particles& particles, const Spring& spring) {
   return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
 }
 
-// Position-based links: each relaxation removes the share kLST of a link's extension, so n relaxations leave (1 -
-// kLST)^n of the extension after a free step of length h. Backward Euler on a spring k leaves 1 / (1 + k h^2 / mu).
+// Position-based links: each relaxation removes the share kLST of a link's extension. After a free step of length h, n
+// relaxations leave (1 - kLST)^n of the extension, and backward Euler with a spring k would leave 1 / (1 + k h^2 / mu).
+// The conversion equates the two.
 
 /// kLST (dimensionless) of a link with stiffness k (N/m) between particles of reduced mass mu (kg), relaxed n times in
 /// a step h (s); 1 between two pins.
@@ -38,20 +39,20 @@ inline double link_condition(double kLST, int n) {
 }
 inline std::string link_stiffness_text(int n) { return fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", n); }
 
-/// kDP (dimensionless) of the position-based world, the share by which a step reduces all velocities, for a drag rate
-/// gamma (1/s); and its inverse.
+/// Converts a drag rate gamma (1/s) to kDP (dimensionless), the share by which a step of the position-based world
+/// reduces all velocities; and back.
 inline double damping_of_drag(double gamma, double h) { return -std::expm1(-gamma * h); }
 inline double drag_of_damping(double kDP, double h) { return -std::log1p(-kDP) / h; }
 /// d ln gamma / d ln kDP, by which a relative error of kDP is amplified.
 inline double damping_condition(double kDP) { return kDP > 0 ? kDP / (1 - kDP) / -std::log1p(-kDP) : 1; }
 
-// The explicit deformable world computes v' = (v + h f / m) (1 - h gamma), but drag as a force at v_n would not reduce
-// the contribution of f. The forces are therefore passed divided by (1 - h gamma).
+// The explicit deformable world computes v' = (v + h f / m) (1 - h gamma). Drag as a force at v_n would not reduce the
+// contribution of f, so the forces are divided by (1 - h gamma) before they are passed to Bullet.
 
-/// The body's drag factor (dimensionless) for a drag rate gamma (1/s), and its inverse.
+/// Converts a drag rate gamma (1/s) to the body's drag factor (dimensionless), and back.
 inline double drag_factor(double gamma, double h) { return h * gamma; }
 inline double drag_of_factor(double factor, double h) { return factor / h; }
-/// A stiffness or acceleration that the drag factor restores to `value`.
+/// The stiffness or acceleration to pass to Bullet, so that `value` remains after the drag factor has acted.
 inline double before_drag(double value, double factor) { return value / (1 - factor); }
 
 }  // namespace crosscheck::bullet

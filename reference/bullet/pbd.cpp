@@ -131,7 +131,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
   }
 
-  /// Terms that links cannot represent, applied for one step as forces on the nodes in their current state.
+  /// Terms that links cannot represent. They act for one step, as forces on the nodes in their current state.
   struct Wanted {
     bool bending = false, dashpots = false, winds = false;
   };

@@ -10,7 +10,7 @@ struct PbdSettings {
   int iterations = 1;
   bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1
   bool own_wind = false;  // Bullet's wind on triangles instead of the scene's
-  double voxel = 0.02;    // m, of the distance field; Bullet's default of 0.25 would misplace a ball by 1.5 cm
+  double voxel = 0.02;    // m, voxel size of the distance field; at Bullet's 0.25, a ball would be misplaced by 1.5 cm
   BulletDefaults defaults;
 };
 

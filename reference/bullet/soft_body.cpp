@@ -99,7 +99,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
   }
   if (!defaults.sleep) bt_body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);
-  // the implicit world starts from m_vn, the explicit one from m_v: report a velocity only if they agree
+  // the implicit world starts from m_vn, the explicit one from m_v: a velocity is reported only if both agree
   for (int node = 0; node < n; ++node)
     if (!(bt_body_->m_nodes[node].m_v == bt_body_->m_nodes[node].m_vn))
       built_.v.col(particle_of_[node]).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -166,8 +166,8 @@ Readback SoftBody::read_back() const {
 
 namespace {
 
-/// Half the edge (m) of the cube whose face is a plane: twice the distance that particles and plane may move from the
-/// middle of their box; the factor 2 allows for springs and wind.
+/// Half the edge (m) of the cube whose face represents a plane. It is twice the distance that particles and plane may
+/// move from the middle of the scene's box; the factor of two allows for springs and wind.
 double half_edge(const Scene& scene, const Plane& plane) {
   const auto* gravity = scene.model.find<Gravity>();
   const double t = scene.duration, g = gravity ? gravity->acceleration.norm() : 0;
@@ -205,7 +205,7 @@ void Obstacles::add(const Surface& surface, std::unique_ptr<btConvexShape> shape
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.get());
   info.m_startWorldTransform.setIdentity();
   info.m_startWorldTransform.setOrigin(to_bullet(surface.origin_at(0) + middle));
-  info.m_friction = static_cast<btScalar>(surface.friction);  // times the body's kDF, which is 1
+  info.m_friction = static_cast<btScalar>(surface.friction);  // Bullet multiplies it by the body's kDF, which is 1
   info.m_restitution = 0;
   auto body = std::make_unique<btRigidBody>(info);
   if (surface.moving()) {
@@ -233,7 +233,7 @@ void Obstacles::place(double t) {
 
 namespace {
 
-/// The upper face of a box in Bullet, at which particles with that margin touch.
+/// The plane at which particles with this margin touch the upper face of a box in Bullet.
 Readback::Face face_of(const btBoxShape& box, const btTransform& place, double margin) {
   const Vec3 normal = from_bullet(place.getBasis().getColumn(1));
   return {from_bullet(place.getOrigin()) + (box.getHalfExtentsWithMargin().y() + margin) * normal, normal, {}, {}};

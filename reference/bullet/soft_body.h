@@ -16,9 +16,9 @@ namespace crosscheck::bullet {
 
 // Pitfalls of Bullet (all measured). Pinned nodes must come last: the implicit world shifts its contact prediction by
 // one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared. Bodies slower
-// than 0.04 m/s fall asleep unless that is disabled. A disconnected spring graph hangs the builder of the node tree.
-// The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box divided by
-// the step.
+// than 0.04 m/s fall asleep unless sleeping is disabled. A disconnected spring graph hangs the builder of the node
+// tree. The body's margin is 0.25 m unless set. The explicit world limits speeds to the diagonal of the body's box
+// divided by the step.
 
 /// Converts vectors between mysim and Bullet, in Bullet's precision.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
@@ -31,14 +31,14 @@ struct CollisionPipeline {
   btDbvtBroadphase broadphase;
 };
 
-/// Throws Unsupported if Bullet would hang (a spring graph in several pieces near a surface; not checked if `may_hang`)
-/// or does not support the scene (first order, restitution). Call it before building a world.
+/// Throws Unsupported if Bullet would hang (on a spring graph in several pieces near a surface; not checked if
+/// `may_hang`) or does not support the scene (of first order, or with restitution). Call it before building a world.
 void require_supported(const Scene& scene, bool may_hang = false);
 
-/// Options that keep a harmful default of Bullet, or ignore its advice, to demonstrate the effect.
+/// Options that demonstrate the effect of a harmful default of Bullet, or of ignoring Bullet's advice.
 struct BulletDefaults {
   bool rest = false;           // the first step overwrites rest lengths by current lengths
-  bool margin = false;         // 0.25 m
+  bool margin = false;         // keeps the margin of 0.25 m
   bool sleep = false;          // bodies slower than 0.04 m/s for 2 s fall asleep
   bool pieces = false;         // allow a network in pieces near a sphere, on which Bullet never returns
   double gravity_factor = 1;   // the body's gravity factor, by which the world's gravity is divided
@@ -76,8 +76,8 @@ Points small_offsets(const Bending& bending, const Points& x);
 /// Puts a body into a known state, to probe its world's forces; the destructor restores the previous state. The nodes
 /// are at 1.1 times the initial positions, so that all springs pull. With bending, each node is also displaced by up to
 /// a fiftieth of the shortest distance in a stencil, so that no stencil is flat. The velocities are x + P x (as m/s),
-/// where P rotates the coordinates cyclically: not a rigid motion, because every distance d grows, d . (d + P d) >=
-/// |d|^2 / 2.
+/// where P permutes the coordinates cyclically. This is not a rigid motion: every distance d grows at a rate with d .
+/// (d + P d) >= |d|^2 / 2.
 class ProbeState {
  public:
   ProbeState(const Scene& scene, SoftBody& body, double t) : body_(body) {
@@ -140,12 +140,12 @@ class ProbeState {
 // The scene's spheres and planes as Bullet's rigid bodies, fixed or kinematic.
 //
 // A plane is the upper face of a cube below the middle of the particles. Half the cube's edge is twice the particles'
-// possible displacement during the scene, so that no particle reaches the rim. The cube's distances are linear, so the
-// grid from which Bullet's soft bodies read distances and normals has only rounding errors, for any voxel size. On a
-// floor and on a slope of 25 degrees, a node and a cloth of 25 stay within 1e-14 m of the face in the explicit
-// deformable world and slide by Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh
-// of two triangles as large as the body's box, each with its own grid. On this shape, the same bodies sink in by 0.12 m
-// and drift sideways by 43 mm in half a second, and the position-based world throws them up by 3 m.
+// possible displacement during the scene, so that no particle reaches the rim. Bullet's soft bodies read distances and
+// normals from a grid. Distances from a face are linear, so the grid has only rounding errors, for any voxel size. On a
+// floor and on a slope of 25 degrees, single nodes and a cloth of 25 nodes stay within 1e-14 m of the face in the
+// explicit deformable world and slide by Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a
+// concave mesh of two triangles as large as the body's box, each with its own grid. On this shape, the same bodies sink
+// in by 0.12 m and drift sideways by 43 mm in half a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
@@ -175,9 +175,9 @@ class Obstacles {
   std::vector<btTransform> built_;  // transforms with which the bodies were added
 };
 
-/// Largest error of Bullet's normals on the scene's smallest ball, in each direction, e.g. "5 mrad on voxels of a = 10
-/// mm". The scene must contain a ball. Inside a voxel, the gradient of the distance grid is constant along each axis:
-/// correct in the middle, and wrong by half a voxel's angle at the voxel's faces.
+/// Largest error of Bullet's normals on the scene's smallest ball, along each axis, e.g. "5 mrad on voxels of a = 10
+/// mm". The scene must contain a ball. Inside a voxel, the gradient of the distance grid is constant along each axis.
+/// It is therefore correct in the middle, and wrong by half a voxel's angle at the voxel's faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
 /// A soft body and its obstacles in a soft-body world of Bullet, destroyed in the right order. The derived class
@@ -199,7 +199,7 @@ class SoftBodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // for rigid bodies only; the obstacles are fixed or kinematic
   }
 
-  /// Prescribed positions of pins and surfaces, at a time at which no motion of a round frequency is back at its start.
+  /// Prescribed positions of pins and surfaces, at a time when no motion of a round frequency is back at its start.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // restores the nodes at the end

@@ -12,7 +12,7 @@ struct WorldChoice {
   std::string what;  // one line for the user
   Engine engine;
   bool implicit = false, position_based = false;
-  bool may_hang = false;  // to be run in a separate process with a time limit
+  bool may_hang = false;  // must be run in a separate process with a time limit
 };
 
 /// The names "deformable-explicit", "deformable-implicit", "pbd".

@@ -27,7 +27,7 @@ void certify_particles(const Scene& scene, const Readback& r, CertificateWriter&
         std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
 }
 
-/// Rows for the motions of pins, spheres and planes; fixed ones have a row only if the engine moves them.
+/// Adds rows for the motions of pins, spheres and planes. A fixed object has a row only if the engine moves it.
 void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Particles& p = scene.model.particles;
   const auto* spheres = scene.model.find<Spheres>();

@@ -1,5 +1,5 @@
-// The parity certificate verifies that an engine built the same scene. Each row has the scene's value of a quantity,
-// how it was mapped, the value read back, and the verdict.
+// The parity certificate verifies that an engine built the same scene. Each row contains a quantity's value in the
+// scene, its mapping, the value read back, and the verdict.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ struct Certificate {
   bool fully_attested() const;
 };
 
-/// One line: the number of quantities read back, and those that do not match, follow another law or are not attested.
+/// One line: the number of quantities read back, the mismatches, the number under another law, and those not attested.
 std::string summary_of(const Certificate& certificate);
 
 /// Compares the engine's read-back with the scene. Quantities that the engine does not report are marked as such in

@@ -29,7 +29,7 @@ void certify_family(Family family, const Springs& springs, const Readback& r, Ce
   w.deviation(name + ": rest lengths", range_of(shortest, longest, "m"), rest, std::max(longest, 1e-300));
   const std::string range = range_of(softest, stiffest, "N/m");
   if (reported)
-    // inverting a mapping by powers amplifies the rounding error, e.g. to eps / 1e-6 for k h^2/mu = 1e-6
+    // the inverse of a mapping with powers amplifies rounding errors, e.g. from eps to eps / 1e-6 for k h^2/mu = 1e-6
     w.row(name + ": stiffness", range, fmt::format("largest deviation {:.2g}", stiffness),
           stiffness <= std::max(1e-8, w.tolerance()));
   else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces show the stiffness and the law
@@ -54,8 +54,8 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
   const auto* dashpots = scene.model.find<Dashpots>();
   State probed = scene.start;
   if (r.probe) probed.x = r.probe->x;
-  /// Number of pairs that exert no force in the known state, so that nothing is known about them. Ignores pairs of two
-  /// pins.
+  /// Number of pairs that exert no force in the known state, so that the probe shows nothing about them. Ignores pairs
+  /// of two pins.
   auto count_force_free = [&](const auto& list, auto pulls) {
     return std::count_if(list.begin(), list.end(), [&](const auto& pair) {
       return !(particles.pinned[pair.a] && particles.pinned[pair.b]) && !pulls(pair);
@@ -69,7 +69,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     for (const int pin : particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
     const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
     const std::string found = fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off);
-    // differences of lengths that are stretched by a tenth lose one digit, and sums of a dozen springs lose another
+    // a stretch of a tenth loses one digit when the rest length is subtracted, and a sum of a dozen springs another one
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
       w.row(quantity, requested, fmt::format("{}; {} of {} exert none there", found, force_free, term.list.size()),
@@ -78,7 +78,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
       w.row(quantity, requested, found, same);
   };
   if (springs && !springs->list.empty() && r.probe && r.probe->springs.size() > 0) {
-    // all laws are linear below a stretch of a thousandth
+    // all laws are linear up to a stretch of a thousandth, so springs in this range show nothing about their law
     const long force_free = count_force_free(springs->list, [&](const Spring& s) {
       return std::abs((probed.x.col(s.a) - probed.x.col(s.b)).norm() - s.rest) > 1e-3 * s.rest;
     });
@@ -215,8 +215,7 @@ void certify_planes(const Scene& scene, const Readback& r, CertificateWriter& w)
   }
 }
 
-/// Compares acceleration by wind and aerodynamic force by the forces that the engine computed at a known state with
-/// particles at rest.
+/// Compares wind and aerodynamic force with the engine's forces at a known state with particles at rest.
 void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const auto* wind = scene.model.find<Wind>();
   const auto* air = scene.model.find<Aerodynamics>();
@@ -281,10 +280,10 @@ void certify_drag(const Drag& drag, const Particles& particles, const Readback& 
         worst <= std::max(w.tolerance(), 1e-9) * high);
 }
 
-/// Rows for ingredients that only the engine has, and one row for those whose absence it does not report.
+/// Adds rows for ingredients that only the engine has, and one row for all those whose absence it does not report.
 void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Model& model = scene.model;
-  // tolerates rounding of a position in each step, and of 1 - exp(-gamma h)
+  // tolerates the rounding of a position in each step, and the rounding of 1 - exp(-gamma h)
   if (!model.find<Gravity>() && r.gravity && !(r.gravity->norm() * w.step() * w.step() <= w.tolerance() * scene.size()))
     w.row("gravity", "none", acceleration_text(*r.gravity), false);
   if (!model.find<Drag>() && r.drag &&

@@ -38,7 +38,7 @@ class CertificateWriter {
     row(quantity, std::move(requested), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
         largest <= tolerance() * scale);
   }
-  /// True if the engine itself declares a different law for the ingredient, which then has its own row.
+  /// True if the engine itself declares a different law for the ingredient. Such a law has its own row.
   bool has_different_law(std::string_view ingredient) const {
     return std::any_of(outcome_.different_law.begin(), outcome_.different_law.end(), [&](const std::string& law) {
       return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");

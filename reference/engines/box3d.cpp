@@ -1,8 +1,8 @@
 // Box3D as a program of the engine protocol (tried: version 0.2.0, commit 30c67b5e6d0a). Built by box3d/CMakeLists.txt.
 //
 // springs=joint (default): springs, with the dashpots between the same ends, are distance joints with a frequency and a
-// damping ratio. springs=forces: they are forces, which Box3D repeats in each of its n sub-steps; a body then moves by
-// h v + h^2 a (n + 1) / (2 n), so springs gain energy unless n is 1.
+// damping ratio. springs=forces: springs and dashpots are forces, which Box3D repeats in each of its n sub-steps. In a
+// step, a body then moves by h v + h^2 a (n + 1) / (2 n), so springs gain energy unless n is 1.
 #include <box3d/box3d.h>
 
 #include "crosscheck_engine.h"

@@ -2,7 +2,7 @@
 // cannon-es as an engine of crosscheck (PROTOCOL.md): particles are bodies with the shape Particle.
 //
 // cannon's rule is symplectic Euler in double precision: v = v (1 - d)^h + h f / m, then x += h v, where d is a body's
-// linear damping. The drag gamma = c / m (1/s) becomes d = 1 - exp(-gamma), which is exact for constant forces.
+// linear damping. The drag gamma = c / m (1/s) becomes d = 1 - exp(-gamma), so a step multiplies v by exp(-gamma h).
 //
 // Options: springs=spring|distance (class Spring, or distance constraints as in cannon's cloth example, which enforce
 // the rest lengths), iterations=N (of the solver, default 10 as in cannon), damping=zero|as-written. cannon interprets
@@ -32,7 +32,7 @@ function particles(scene) {
     collisionFilterGroup: ball_group, collisionFilterMask: obstacle_group }));
 }
 
-/// Particles touch a sphere or plane at the scene's distance. A contact multiplies both bodies' coefficients.
+/// An obstacle that particles touch at the scene's distance. A contact multiplies the coefficients of both bodies.
 function obstacle(of) {
   const { friction, restitution, radius, margin, normal } = of, z = new CANNON.Vec3(0, 0, 1);
   const shape = normal ? new CANNON.Plane() : new CANNON.Sphere(radius + margin);
@@ -87,13 +87,13 @@ serve(description, (scene) => {
     const w = scene.wind && vec3(scene.windAt(t));
     if (w) for (const body of bodies) body.force.addScaledVector(body.mass, w, body.force);
   };
-  /// Forces that `act` exerts on the bodies, flat.
+  /// Forces that `act` exerts on the bodies, as a flat array.
   const forces = (act) => {
     bodies.forEach((body) => body.force.setZero());
     act();
     return Float64Array.from(bodies.flatMap((body) => components(body.force)));
   };
-  /// Forces of cannon's own objects, without those that are reported as another law.
+  /// Forces of cannon's own objects, except those that are reported as a different law.
   const probe = () => {
     const state = scene.probeState();
     bodies.forEach((body, i) => place(body, components(vec3(state.x, i)), [0, 0, 0]));

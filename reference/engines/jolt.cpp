@@ -206,8 +206,8 @@ class JoltWorld : public World {
     // gravity and wind give all free particles the same acceleration
     if (scene_.wind) body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(t)));
     const double h = scene_.step;
-    // a held vertex is moved by setting its velocity; its position is set too, because n sub-steps accumulate n
-    // roundings
+    // a held vertex is moved by setting its velocity; its position is set as well, because n sub-steps would accumulate
+    // n rounding errors
     const Motion& motion = scene_.pin_motion;
     if (scene_.pins_move)
       for (const int pin : scene_.pins)
@@ -267,8 +267,8 @@ class JoltWorld : public World {
                   {"iterations", std::to_string(iterations)},
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
-    // A step ends on the plane that was tangent at its beginning, so the next step begins above the ball. This gap
-    // subtracts another half of v^2 / R from the depth that determines friction.
+    // A step ends on the plane that touched the ball where the step began, so the next step begins above the ball. This
+    // gap subtracts another half of v^2 / R from the depth that determines friction.
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(

@@ -58,9 +58,9 @@ class World {
     Object.assign(creation, {
       mNumIterations: iterations, mLinearDamping: damping,  // default damping 0.1 / s
       mMaxLinearVelocity: 1e15,   // m/s; default 500, above which vertices are silently slowed down
-      mUpdatePosition: false,     // otherwise the frame follows, and vertices are rounded once more per step
+      mUpdatePosition: false,     // otherwise the frame follows the body, and vertices are rounded again
       mAllowSleeping: false,      // otherwise a body slower than 0.17 m/s for half a second stops
-      mFriction: 1, mRestitution: 0 });  // a contact uses sqrt(body's times sphere's); the larger of the two
+      mFriction: 1, mRestitution: 0 });  // a contact uses sqrt(body's times sphere's), and the larger restitution
     const body = this.bodies.CreateSoftBody(creation);
     this.bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
     const motion = Jolt.castObject(body.GetMotionProperties(), Jolt.SoftBodyMotionProperties);
@@ -132,8 +132,8 @@ serve(description, (scene) => {
     step(t, next) {
       if (scene.wind) blow(t);
       if (!pins.motion) return void world.jolt.Step(h, 1);
-      // a held vertex is moved by setting its velocity; its position is set too, because n sub-steps accumulate n
-      // roundings
+      // a held vertex is moved by setting its velocity; its position is set as well, because n sub-steps would
+      // accumulate n rounding errors
       const from = scene.pinsAt(t), to = scene.pinsAt(next), held = to.map(({ particle }) => soft.vertices[particle]);
       held.forEach((one, i) => (one.mVelocity = world.vec3(to[i].x.map((e, k) => (e - from[i].x[k]) / h))));
       world.jolt.Step(h, 1);
@@ -162,8 +162,8 @@ serve(description, (scene) => {
       probe.wind = Float64Array.from(probe.x, (_, e) => readback.mass[(e / 3) | 0] * extra[e % 3]);
       [body, ...balls].forEach((one) => world.remove(one));
       probe.springs = springForces(world, springs, probe.x);
-      // a step ends on the plane that was tangent at its beginning, so the next step begins above the ball; this gap
-      // subtracts another half of v^2 / R from the depth that determines friction
+      // a step ends on the plane that touched the ball where the step began, so the next step begins above the ball;
+      // this gap subtracts another half of v^2 / R from the depth that determines friction
       const law = 'friction: on a ball of radius R it is mu m (g_n - 3/2 v^2 / R) with n = 1, not mu m (g_n - v^2 / R)';
       return { force_evaluations: Math.round(scene.times.at(-1) / h) * iterations * 2, readback,
                different_law: scene.spheres.some((ball) => ball.friction > 0) ? [law] : [] };

@@ -236,7 +236,7 @@ class MujocoWorld : public World {
     if (!r.spheres->empty()) r.margin = r.spheres->front().radius - scene_.spheres.front().radius;
   }
 
-  /// Forces of the tendons, first with damping only, then with stiffness only, and of the callback's terms.
+  /// Probes the forces of the tendons (first with damping only, then with stiffness only) and of the callback's terms.
   Probe probe() {
     Probe p = probe_of_forces(called_, probe_state(scene_));
     mjModel& m = *model_;

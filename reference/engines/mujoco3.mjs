@@ -20,7 +20,7 @@ const description = {
 };
 const integrators = { euler: 'Euler', rk4: 'RK4', implicit: 'implicit', implicitfast: 'implicitfast' };
 const text = (v) => Array.from(v).join(' ');
-/// Damping ratio of a contact that returns the fraction e of the speed, and its inverse.
+/// Damping ratio of a contact that returns the fraction e of the speed, and the inverse of this function.
 const ratio = (e) => (e > 0 ? -Math.log(e) / Math.hypot(Math.PI, Math.log(e)) : 1);
 const bounce = (zeta) => (zeta < 1 ? Math.exp((-Math.PI * zeta) / Math.sqrt(1 - zeta * zeta)) : 0);
 
@@ -64,7 +64,7 @@ function modelText(scene, { integrator, eulerdamp, flex, timeconst }) {
     <deformable>${flex ? flexes(springs) : ''}</deformable></mujoco>`;
 }
 
-/// Edges of the flexes in the order of the springs. Sets their rest lengths, which MuJoCo takes from the initial state.
+/// Edges of the flexes in the order of the springs. Sets their rest lengths; MuJoCo itself uses the initial lengths.
 function flexEdges(model, { list }) {
   const name = (a, b) => (a < b ? `${a} ${b}` : `${b} ${a}`), at = new Map(list.map(({ a, b }, i) => [name(a, b), i]));
   const edges = [], { flex_edge: ends, flexedge_length0: rests, flex_vertbodyid: bodies, flex_vertadr: first } = model;

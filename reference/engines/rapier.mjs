@@ -31,8 +31,8 @@ function particle(world, x, v, mass, motion) {
   return world.createRigidBody(desc.setTranslation(...x).setLinvel(...v).lockRotations().setCanSleep(false));
 }
 
-/// Forces (N) of the links at x and v as Rapier computes them: each link separately, between a held particle and a free
-/// one at the origin, in one short step d. The free particle, of mass m = 1e6 (d^2 k + d c), hardly moves.
+/// Forces (N) of the links at x and v as Rapier computes them. Each link is measured separately, in one short step d,
+/// between a held particle and a free one at the origin. The free one, of mass m = 1e6 (d^2 k + d c), hardly moves.
 function measuredForces(links, x, v) {
   const forces = new Float64Array(x.length), d = 2 ** -10, world = newWorld([0, 0, 0], d, 1);
   const apart = (array, { a, b }) => [0, 1, 2].map((k) => array[3 * b + k] - array[3 * a + k]);
@@ -68,8 +68,8 @@ function softBody(world, scene, springs) {
   return body;
 }
 
-/// Colliders of the obstacles, read back. Particles are balls whose radius is the smallest margin; the rest of each
-/// margin is added to the obstacle.
+/// Adds colliders for particles and obstacles, and reads the obstacles back. Particles are balls whose radius is the
+/// smallest margin; the rest of each margin is added to the obstacle.
 function addContacts(world, scene, bodies) {
   const all = [...scene.spheres, ...scene.planes], { Max } = RAPIER.CoefficientCombineRule, { ColliderDesc } = RAPIER;
   const size = Math.min(...all.map((one) => one.margin)) || scene.task.size / 1000;

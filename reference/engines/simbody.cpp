@@ -19,7 +19,7 @@ using Bodies = std::vector<MobilizedBody::Translation>;
 SimTK::Vec3 to_simbody(const Vec& v) { return {v[0], v[1], v[2]}; }
 Vec from_simbody(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// Prescribes a pin's position. The body's frame is the world's: coordinates are positions.
+/// Prescribes a pin's position. The body's frame is the world's, so coordinates are positions.
 class PinMotion : public SimTK::Motion::Custom::Implementation {
  public:
   PinMotion(const Scene& scene, size_t pin) : scene_(scene), pin_(pin) {}

@@ -35,8 +35,8 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
-  // on one spring, the single Newton step of these worlds and the link correction after a free step are both backward
-  // Euler
+  // on one spring, both the single Newton step of these worlds and the correction of a link after a free step are
+  // backward Euler
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
   return method;
 }
@@ -44,7 +44,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
 Method in_single_precision(const std::string& world, const MethodOptions& options) {
   Program program{programs_folder() / "bullet32_engine", {}};
   for (const std::string& option : options) add_option(program, "bullet32/" + world, option);
-  const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before running
+  const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses invalid options at once
   program.options.insert(program.options.begin(), "world=" + world);
   Method method{"bullet32/" + world, chosen.what + "; in single precision, as a separate program", "",
                 [program](const Scene& scene, const Run& run, Observer& observer) {

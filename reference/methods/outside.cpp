@@ -1,4 +1,4 @@
-// External programs and trajectories: only samples are available, and nothing is known about the states between.
+// External programs and trajectories: only samples are available, and nothing is known about the states between them.
 
 #include <fmt/format.h>
 

@@ -192,7 +192,7 @@ std::vector<EngineNumbers> make_table() {
                       // gamma itself is rounded as well
                       .condition = [](double, const Context& at) { return 1 / (1 - at.h * at.gamma); }};
   };
-  // each of Jolt's n sub-steps reduces a velocity by the share gamma h / n; with this value exp(-gamma h) remains
+  // each of Jolt's n sub-steps multiplies velocities by 1 - value h / n; all n sub-steps together give exp(-gamma h)
   NumberRule jolt_damping{
       .quantity = SceneNumber::drag,
       .name = "mLinearDamping",

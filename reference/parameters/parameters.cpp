@@ -139,16 +139,16 @@ std::vector<double> engine_values(const NumberRule& rule, const TranslationTarge
   return values;
 }
 
-/// Relative rounding error of a conversion and its inverse: half an ulp of the engine's number and about four rounding
-/// errors in each direction (8 eps), times the condition number of the inverse.
+/// Relative rounding error of converting a number and back: half an ulp of the engine's number plus about four rounding
+/// errors in each direction (8 eps), all multiplied by the condition number of converting back.
 double rounding_of(const NumberRule& rule, double engine, bool single, const NumberContext& at) {
   constexpr double eps = std::numeric_limits<double>::epsilon(), eps_single = std::numeric_limits<float>::epsilon();
   return (0.5 * (single ? eps_single : eps) + 8 * eps) *
          (rule.condition ? std::max(1.0, rule.condition(engine, at)) : 1);
 }
 
-/// Largest relative error of a conversion and its inverse: rounding, plus the exactly known error of one number used
-/// for many.
+/// Largest relative error of converting the scene's numbers and back: rounding, plus, if one number stands for several,
+/// its exactly known difference from each of them.
 double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool single,
                     const std::vector<NumberContext>& at) {
   double most = 0;

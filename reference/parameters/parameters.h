@@ -33,8 +33,8 @@ struct NumberContext {
 };
 
 struct NumberRule {
-  /// Ways to represent many springs or particles in the engine: one number each; a common number, if all are equal; the
-  /// number of the median spring; or that of the mean particle.
+  /// Ways to represent the numbers of many springs or particles in the engine: one number each; a common number, if all
+  /// are equal; the number of the median spring; or the number of the mean particle.
   enum class Gather { each, same, median, mean };
 
   SceneNumber quantity;
@@ -46,19 +46,19 @@ struct NumberRule {
   Gather gather = Gather::each;
   std::string_view expected = {};   // description of valid numbers
   bool (*valid)(double) = nullptr;  // null: any finite number >= 0
-  /// Relative error of the scene's number divided by that of the engine's number; null: 1.
+  /// Factor by which converting back amplifies a relative error of the engine's number; null: 1.
   double (*condition)(double, const NumberContext&) = nullptr;
-  bool one_by_one = false;  // solves springs one after another: in a network, valid for short steps only
+  bool one_by_one = false;  // the engine solves springs in turn, so in a network the rule holds for short steps only
 };
 
-/// k h^2 / mu (dimensionless) up to which a network whose springs are solved one after another has the requested
-/// stiffness to 1 %. The sag is too large by 0.25 to 0.32 times this number for a chain of three, and by 0.27 for a
-/// cloth (experiment `stiffness`).
+/// Largest k h^2 / mu (dimensionless) at which a network whose springs are solved one after another has the requested
+/// stiffness to 1 %. The sag of a chain of three is too large by 0.25 to 0.32 times k h^2 / mu, and that of a cloth by
+/// 0.27 times this value (experiment `stiffness`).
 inline constexpr double sequential_limit = 0.03;
 
 /// An engine's numbers: a row of the table.
 struct EngineNumbers {
-  std::string_view name = {};        // an engine that is no method here, e.g. "jolt"; empty: the methods' names
+  std::string_view name = {};        // of an engine that is no method here, e.g. "jolt"; empty: methods' names apply
   std::string_view title = {};       // for display
   std::string_view iterations = {};  // the engine's name for iterations; empty: not adjustable
   int usual_iterations = 1;
@@ -82,8 +82,8 @@ struct TranslationTarget {
   std::optional<Method> runs = {};  // method that can run the translated scene
   bool stand_in = false;            // `runs` follows the engine's rule, but is not the engine
 };
-/// Finds a target by the name of a method, or of an engine in the table, with "+n=N". iterations: 0, or N again. Throws
-/// InputError that lists the known targets.
+/// Finds a target by the name of a method, or of an engine in the table, optionally with "+n=N". `iterations` is 0, or
+/// repeats N. Throws InputError that lists the known targets.
 TranslationTarget find_target(const std::string& name, int iterations);
 
 struct TranslatedNumber {
@@ -91,7 +91,7 @@ struct TranslatedNumber {
   std::vector<double> scene;   // the scene's values
   std::vector<double> engine;  // one per scene value, or one for all
   std::vector<double> back;    // `engine` converted back, one per scene value
-  double stated = 0;           // largest relative error of the round trip: rounding, or one number for many
+  double stated = 0;           // largest relative error of `back`, due to rounding or to one number for many
   std::string here = {};       // statement whether this scene is within the rule's range of validity
 };
 
@@ -114,9 +114,9 @@ struct NumbersFile {
   std::vector<std::pair<const NumberRule*, std::vector<double>>> numbers;
 };
 
-/// The scene with the values that the engine's numbers represent; others stay unchanged.
+/// The scene with the values that the engine's numbers represent; all other values stay unchanged.
 Scene scene_of(const Scene& scene, const EngineNumbers& engine, const NumbersFile& numbers);
-/// Largest relative rounding error in the numbers of that scene.
+/// Largest relative rounding error among the values of such a changed scene.
 double rounding_of(const Scene& changed, const TranslationTarget& target, const NumbersFile& numbers);
 
 /// The translation as TOML: method, step, iterations, and each number under the engine's name, one for all or a list in
@@ -128,8 +128,8 @@ NumbersFile read_numbers(const std::string& text, const std::string& file, const
                          const TranslationTarget& target, double step);
 
 /// The source scene's file with the numbers of a scene derived from it. Throws InputError if a file cannot represent
-/// them, e.g. because springs of one grid family share a stiffness. `within`: relative difference attributed to
-/// rounding.
+/// them, e.g. because all springs of a grid family must have the same stiffness. `within`: relative difference
+/// attributed to rounding.
 std::string scene_toml(const Scene& source, const Scene& changed, double within);
 
 }  // namespace crosscheck

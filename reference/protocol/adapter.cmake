@@ -1,4 +1,4 @@
-# Provides the target mysim, crosscheck's own libraries, to adapters that are built against a tree of their engine.
+# Provides the target mysim (crosscheck's own libraries) to adapters that are built against a tree of their engine.
 #   CROSSCHECK_LIBRARIES   folder of the libraries: a build folder, or lib/crosscheck of an installation
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
