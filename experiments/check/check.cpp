@@ -10,7 +10,6 @@
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
 #include "mysim/base/pattern.h"
-#include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 
 namespace crosscheck {
