@@ -14,7 +14,7 @@ struct TranslatedRun {
   std::string method;
   Outcome outcome = {};                   // also states where the engine's laws differ from the scene's
   std::optional<double> error = {};       // m, largest RMS distance of the particles from the truth up to `until`
-  std::optional<double> difference = {};  // m, replaces `error` if no truth is independent of engines
+  std::optional<double> difference = {};  // m, replaces `error` if only an engine can serve as the reference
   std::string beside = {};                // name and tier of the reference
   std::optional<double> bar = {};         // m, error bar of the truth
   double motion = 0;                      // m, largest RMS distance from the start
