@@ -189,9 +189,9 @@ Runs runs_of(const Method& method, const Scene& scene) {
   return runs;
 }
 
-/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding and
-/// solver error (ratio), by that of rounding alone (rounding), and by the size of the net (distance); infinite if no
-/// sample is conclusive.
+/// Largest distance between the rule's path and the method's over the samples, divided by the bound of rounding and
+/// solver error (`ratio`), by the bound of rounding alone (`rounding`), and by the size of the net (`distance`).
+/// Infinite if no sample is conclusive.
 struct Match {
   double ratio = 0, rounding = 0, distance = 0;
 };
@@ -243,8 +243,9 @@ const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene
   return same;
 }
 
-/// `own_steps` if the two runs differ by less than those of any rule, and the error is smaller than any rule's and does
-/// not fall with a high power of the step; `ignores_step` if the error is larger; else `nearest`.
+/// `own_steps` if the two runs differ by less than a hundredth of the difference for any rule, and their error is
+/// smaller than that difference and does not fall with a high power of the step. `ignores_step` if only the error is
+/// larger; else `nearest`.
 FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::vector<Candidate>& rules) {
   const auto rk4 = std::ranges::find(rules, "rk4", &Candidate::name);
   Path truth;
@@ -260,7 +261,7 @@ FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::v
   return fine_error < least ? FoundRule::own_steps : FoundRule::ignores_step;
 }
 
-/// Finds the drag by runs with drag, for a rule that agrees with the method without drag.
+/// Finds the form of the drag from runs with drag. Without drag, `rule` agrees with the method.
 void find_drag(const Method& method, const Candidate& rule, const Scene& plain, FoundRule& found) {
   const Scene dragged = with_drag(plain);
   try {

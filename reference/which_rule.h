@@ -25,12 +25,12 @@ struct FoundRule {
 
 /// Runs the method on a net of five particles, without and with drag, at two steps, 50 steps each. Compares the
 /// positions with every fixed-step rule of mysim, velocity Verlet, and symplectic Euler with positions first. A rule is
-/// the same if all positions agree within the possible growth of rounding in the engine's precision: three times the
-/// growth of a perturbation of 20 u L sqrt(n), with the unit round-off u, the size L of the net and n steps, plus 1e-8
-/// L if an equation is solved. A method chooses its steps if its two runs differ by less than a hundredth of the
-/// difference for any rule, unless its error falls with a high power of the step. If the error is as large as that of a
-/// rule, the method ignores the step. Rules that solve springs one after the other depend on their order; a net of one
-/// spring identifies such a rule.
+/// the same if all positions agree within the possible growth of rounding in the engine's precision. This is three
+/// times the growth of a perturbation of 20 u L sqrt(n), with the unit round-off u, the size L of the net and n steps,
+/// plus 1e-8 L if an equation is solved. A method chooses its steps if its two runs differ by less than a hundredth of
+/// the difference for any rule, unless its error falls with a high power of the step. If the error is as large as that
+/// of a rule, the method ignores the step. Rules that solve springs one after the other depend on the springs' order; a
+/// net of one spring identifies such a rule.
 FoundRule find_rule(const Method& method);
 
 /// The finding as a sentence: "rk4 on a net of springs, gravity, pins, drag (explicit drag): largest difference 3.0e-15
@@ -41,7 +41,7 @@ std::string sentence_of(const FoundRule& found);
 /// above rounding"; empty if no rule is the same.
 std::string name_of(const FoundRule& found);
 
-/// Like find_rule(), but cached: reads what this build has identified for the program with these options.
+/// Like find_rule(), but first looks for the rule that this build has found for the program with these options.
 FoundRule cached_rule(const Method& method);
 
 /// Identifies the method's rule when it is first requested.

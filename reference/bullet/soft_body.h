@@ -76,8 +76,8 @@ Points small_offsets(const Bending& bending, const Points& x);
 /// Puts a body into a known state, to probe its world's forces; the destructor restores the previous state. The nodes
 /// are at 1.1 times the initial positions, so that all springs pull. With bending, each node is also displaced by up to
 /// a fiftieth of the shortest distance in a stencil, so that no stencil is flat. The velocities are x + P x (as m/s),
-/// where P permutes the coordinates cyclically. This is not a rigid motion: every distance d grows at a rate with d .
-/// (d + P d) >= |d|^2 / 2.
+/// where P permutes the coordinates cyclically. This is not a rigid motion: every distance |d| grows, by at least |d| /
+/// 2 per second.
 class ProbeState {
  public:
   ProbeState(const Scene& scene, SoftBody& body, double t) : body_(body) {

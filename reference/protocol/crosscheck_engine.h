@@ -470,7 +470,7 @@ class Options {
       if (text == v) return text;
     unsupported("option " + name + "=" + text + ": expected " + name + "=" + list);
   }
-  /// Ends the program as unsupported if there are options without a get().
+  /// Ends the program as unsupported if there are options that no get() has declared.
   void refuse_others() const {
     for (const std::string& option : asked_)
       unsupported("unknown option " + option + ": expected " + (expected_.empty() ? "none" : expected_));
@@ -573,9 +573,9 @@ struct RunReport {
   bool adaptive = false;    // the engine chooses its steps
 };
 
-/// A state that shows the force laws: the start, stretched about the origin by a tenth or more until no spring is
-/// within a hundredth of its rest length. Its velocities point outwards, so that dashpots act too, and it is bent if
-/// the scene has bending.
+/// A state that shows the force laws: the initial positions, stretched about the origin by a tenth, or by more if a
+/// spring would be within a hundredth of its rest length. Its velocities point outwards, so that dashpots act too, and
+/// it is bent if the scene has bending.
 inline Probe probe_state(const Scene& scene) {
   const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m
   for (int tenths = 11;; ++tenths) {
@@ -593,8 +593,8 @@ inline Probe probe_state(const Scene& scene) {
   }
 }
 
-/// Coefficients (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping. Of
-/// several parallel springs, the first gets the coefficient. Dashpots without a parallel spring are added to `others`.
+/// For each spring, the coefficient (N s/m) of the dashpots parallel to it, for engines whose springs have their own
+/// damping. Of parallel springs, only the first has it. Dashpots without a parallel spring are added to `others`.
 inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
   std::map<std::pair<int, int>, size_t> first;
   for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);
@@ -752,13 +752,13 @@ struct World {
   virtual void step(double t) = 0;
   /// Copies positions (m) and velocities (m/s) in the scene's order; both vectors already have the right size.
   virtual void read(std::vector<Vec>& x, std::vector<Vec>& v) = 0;
-  /// Completes the report: `engine`, counts, differing laws, and the read-back from the engine's own data, at least
-  /// `mass`, `pinned` and `links`. Times, steps, `start`, and the pins of `later`, as returned by read(), are already
-  /// filled in.
+  /// Completes the report: `engine`, counts, differing laws, and a read-back of the engine's own data with at least
+  /// `mass`, `pinned` and `links`. Already filled in: times, steps and, from the values that read() returned, `start`
+  /// and the pins of `later`.
   virtual void report(RunReport& report) = 0;
 };
 
-/// Steps the world through the scene's samples, until a state is not finite or step() throws. Times only step().
+/// Steps the world through the scene's samples, until a state is not finite or step() throws. Only step() is timed.
 inline RunReport run_world(const Scene& scene, World& world, std::vector<std::vector<Vec>>& frames,
                            std::vector<std::vector<Vec>>& speeds) {
   std::vector<Vec> x(scene.x.size()), v(scene.x.size());

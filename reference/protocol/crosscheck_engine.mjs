@@ -36,7 +36,7 @@ export function motionAt(motion, t) {
            acceleration: amplitude.map((a) => a * rise) };
 }
 
-/// Wind or air at time t, with gusts, in the unit of the mean.
+/// Acceleration by the wind, or velocity of the air, at time t, with gusts; in the unit of `mean`.
 function blowing(mean, gusts, t) {
   if (!gusts) return [...mean];
   const waves = (list) => list.reduce((sum, w) => sum + w.weight * Math.sin(w.omega * t + w.phase), 0);
@@ -103,7 +103,7 @@ export class Scene {
       unsupported(`${text}: expected a ${whole ? 'whole ' : ''}number above 0, at most 1000000`);
     return number;
   }
-  /// Refuses options without a call of option().
+  /// Refuses the options for which option() has not been called.
   requireKnownOptions() {
     for (const text of this.words.values())
       unsupported(`unknown option ${text}: expected ${this.expected.join(' or ') || 'no option'}`);
@@ -189,9 +189,9 @@ export class Scene {
     const all = [...this.springs.list, ...this.rods.list];
     return all.map((link, i) => ({ a: link.a, b: link.b, ...attest(i, link, i >= this.springs.count) }));
   }
-  /// A state that shows the law of every spring: the start, stretched about the origin by a tenth or more until no
-  /// spring is within a hundredth of its rest length. It grows, so that dashpots act too, and is curved if there is
-  /// bending.
+  /// A state that shows the law of every spring: the initial positions, stretched about the origin by a tenth, or by
+  /// more if a spring would be within a hundredth of its rest length. It grows, so that dashpots act too, and is curved
+  /// if there is bending.
   probeState() {
     const l = this.springs.list.map((spring) => this.lengthOf(spring)), { rest } = this.springs;
     let tenths = 11;
@@ -292,7 +292,7 @@ async function runScene(file, out, description, makeWorld) {
   }
 }
 
-/// Status (0, 3: unsupported, or 1) and reason of a call. `broken`: WebAssembly trapped, and its memory may be damaged.
+/// Exit status (0, 3: unsupported, or 1) and reason of a call. `broken`: WebAssembly trapped; memory may be damaged.
 async function answer(call) {
   try {
     await call();
@@ -303,9 +303,9 @@ async function answer(call) {
   }
 }
 
-/// The program's main function: runs one scene, or with --serve those named on stdin. `description`: the engine's name
-/// and version, the supported `terms`, optionally reasons for what it `lacks`, `laws` of springs, and `init`, which
-/// runs once before the first world is made (it may set `engine`). A world's `free` is called after its scene.
+/// The program's main function: runs one scene, or with --serve those named on stdin. `description`: `engine` (name,
+/// version), `terms` (supported), optionally `lacks` (reasons for missing terms), `laws` (of springs), and `init`,
+/// which runs once before the first world is made and may set `engine`. A world's `free` is called after its scene.
 export async function serve(description, makeWorld) {
   let ready;
   const run = (scene, out) => answer(() => runScene(scene, out, description, async (asked) => {

@@ -54,11 +54,11 @@ double parse_timeout(const std::string& method, const std::string& value) {
 
 class Server {
  public:
-  /// Called after a run of a program that reports server support.
+  /// Allows use of the server. Called after a run in which the program reported a serve mode.
   void allow() { allowed_ = !failed_; }
 
   /// Runs the task in the server. Returns nullopt if the program does not serve, is busy in another thread, or gave no
-  /// valid answer: it must then be called normally.
+  /// valid answer; the caller must then start the program for this task.
   std::optional<ProgramResult> run(const Program& program, const fs::path& task, const fs::path& results) {
     const std::unique_lock lock(busy_, std::try_to_lock);
     if (!lock || !allowed_) return std::nullopt;
@@ -146,9 +146,9 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
   return out;
 }
 
-/// Maximum size of run.json in bytes. A number with its blank and comma takes 26. A particle has 27 numbers (mass, pin,
-/// drag, two vectors of the start, five of the probe, one of later positions); a link has 4, plus 60 bytes for its
-/// keys: 702 and 164 bytes. Three times these sizes plus a mebibyte leaves room for line breaks and texts.
+/// Maximum size of run.json in bytes. A number with its blank and comma takes 26 bytes. A particle has 27 numbers
+/// (mass, pin, drag, two vectors of the start, five of the probe, one of later positions): 702 bytes. A link has 4, and
+/// 60 bytes for its keys: 164 bytes. Three times these sizes plus a mebibyte leaves room for line breaks and texts.
 std::uintmax_t largest_run_json(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();
@@ -189,9 +189,9 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-// Allowed deviation, as for the first frame: sixteen half ulps each of the pin's initial position, its displacement and
-// their sum. Half an ulp is 2^-53, or 2^-24 if the engine's precision is single or unknown. A program that adds up its
-// steps also loses half an ulp of the time per step, during which the pin moves along its path.
+// Allowed deviation: sixteen half ulps of the pin's initial position, of its displacement and of their sum, as for the
+// first frame. Half an ulp is 2^-53, or 2^-24 if the engine's precision is single or unknown. A program that adds up
+// its steps also loses half an ulp of the time per step, during which the pin moves along its path.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
   const Particles& particles = scene.model.particles;
   const TimeGrid grid = time_grid(run);
@@ -272,7 +272,7 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "gave no valid answer: " + what, end);
   }
-  if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // excludes start-up cost
+  if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // cpu_seconds is without start-up
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out, per_sample);

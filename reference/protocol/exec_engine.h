@@ -32,7 +32,7 @@ void add_option(Program& program, const std::string& method, const std::string& 
 
 /// Runs the program on the scene and replays its results through the observer. The verdict is timeout or crash, with
 /// the reason, if the program delivers no results. Throws Unsupported if the program refuses the scene. The stderr
-/// output of a successful run becomes the outcome's remark. Without velocities the states have none.
+/// output of a successful run becomes the outcome's remark. States have no velocities if the program delivers none.
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer);
 
 /// Throws InputError if a result file is a link or a special file, or if run.json is longer than a scene of this size

@@ -29,8 +29,8 @@ struct EngineTask {
   std::vector<std::string> options;
 };
 
-/// Reads the file back, with the written scene's hash and step. What engines do not need (camera, default method) stays
-/// empty. Throws InputError: "FILE: PLACE: expected ..."; Unsupported for a term of a later version.
+/// Reads the file back, with the written scene's hash and step. Fields that engines do not need (camera, default
+/// method) stay empty. Throws InputError: "FILE: PLACE: expected ..."; Unsupported for a term of a later version.
 EngineTask read_scene_json(const std::filesystem::path& file);
 
 }  // namespace crosscheck

@@ -16,8 +16,8 @@ static_assert(std::endian::native == std::endian::little, "the data are written 
 std::string npy_header(long frames, long particles) {
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frames, particles);
-  // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. The words alone exceed 64
-  // bytes, so the total is 128, which leaves room for 57 digits.
+  // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. The header's words alone exceed
+  // 64 bytes, so the total is 128, which leaves room for 57 digits.
   header.resize((10 + header.size() + 1 + 63) / 64 * 64 - 10 - 1, ' ');
   header += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);

@@ -19,7 +19,7 @@
 namespace crosscheck {
 namespace {
 
-/// Called for the program, then for its libraries, until it returns nonzero.
+/// Callback for the program and then for each of its libraries, until it returns nonzero.
 int find_build_id_note(dl_phdr_info* object, size_t, void* out) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];

@@ -31,7 +31,7 @@ Increment increment_from_rows(const RowVector& u_gains, const RowVector& v_gains
   return e;
 }
 
-/// Runge-Kutta rules up to order 4: the Taylor polynomial of exp(h A) of their order.
+/// Runge-Kutta rules up to order 4: the Taylor polynomial of exp(h A) whose degree is the rule's order.
 template <int order>
 Increment taylor_increment(const Eigen::Matrix3d& a, double h) {
   Increment sum = Increment::Zero(), term = Increment::Identity();
@@ -126,7 +126,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 double amplification_of(const Increment& power, double omega) {
   Eigen::Matrix2d m = power.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
   m(0, 1) *= omega, m(1, 0) /= omega;
-  // larger singular value: half the sum of the norms of conformal and anticonformal part
+  // larger singular value: half the sum of the norms of the conformal and the anticonformal part of m
   return (std::hypot(m(0, 0) + m(1, 1), m(0, 1) - m(1, 0)) + std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0))) / 2;
 }
 

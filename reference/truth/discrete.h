@@ -26,16 +26,16 @@ struct DiscreteStepper {
 /// Every one-step rule of mysim except dopri5, which chooses its steps.
 std::span<const DiscreteStepper> discrete_steppers();
 
-/// (I + E)^n - I by repeated squaring, 2 E + E^2. Relative rounding errors: about log2(n) ulps, and n times the phase
-/// of a step.
+/// (I + E)^n - I by repeated squaring, 2 E + E^2. The relative rounding error, in ulps, is about log2(n) plus n times
+/// the phase (rad) of a step.
 Increment increment_power(Increment e, long n);
 
 /// The rule's solution of a linear scene (reference/truth/exact/linear.h, pins at rest) or of a rotation, at the
 /// samples. The error bar bounds the effect of rounding on a run of the rule. Each of the n steps rounds positions by 4
-/// eps |x| and velocities by 4 eps (|v| + h sum(k) / m |x|). An error in velocity moves positions by 1 / omega of the
-/// slowest mode (or by the duration, if less). Both errors are multiplied by the growth of errors under the rule.
-/// Throws Unsupported if the scene is not linear, if springs would turn over (checked at the samples, with each mode's
-/// amplitude there), or if the rule is not a matrix.
+/// eps |x| and velocities by 4 eps (|v| + h sum(k) / m |x|). An error in velocity moves a position by this error times
+/// 1 / omega of the slowest mode, or times the duration if that is less. Both errors are multiplied by the growth of
+/// errors under the rule. Throws Unsupported if the scene is not linear, if springs would turn over (checked at the
+/// samples, with each mode's amplitude there), or if the rule is not a matrix.
 Truth discrete_truth(const DiscreteStepper& rule, const Scene& scene, const Run& run);
 
 }  // namespace crosscheck

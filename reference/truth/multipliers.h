@@ -9,8 +9,8 @@ namespace crosscheck {
 
 /// For each distance d = x_a - x_b let g = (|d|^2 - L^2) / 2, and J its derivatives. The accelerations
 ///   a = M^-1 (f + J^T lambda),  (J M^-1 J^T) lambda = -J M^-1 f - |d'|^2,
-/// keep g'' = 0 (index reduction; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1). Under
-/// rk4, the distances drift by its error of order 4 only. Forces are computed by the terms' plain loops.
+/// keep g'' = 0 (index reduction; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1). With
+/// rk4, the distances drift only by the rule's error of order 4. Forces are computed by the terms' plain loops.
 class MultiplierWorld : public World {
  public:
   /// Throws Unsupported if the distances depend on each other (a straight row between two pins, or a closed mesh).

@@ -141,7 +141,7 @@ bool few_particles(const Scene& scene) { return scene.model.particles.size() < 5
 
 /// First step (s), from the scene alone: truth must not depend on the run that is compared with it.
 double first_step(const Scene& scene, bool constrained) {
-  // rk4 is accurate well below h omega = 0.7 and stable up to 2.83: the first run is at 1.4 or less
+  // rk4 is accurate well below h omega = 0.7 and stable up to 2.83, so the first run is at 1.4 or less
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
   // few particles are cheap, so their steps are short and show an order; hard distances are expensive
   const double part = constrained ? 1 : few_particles(scene) ? 16 : 4;
@@ -293,7 +293,7 @@ std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
   return std::move(recorder.trajectory);
 }
 
-/// Energy taken by contact, inferred for both routes from the energy balance; ignores impulses that they report.
+/// Energy taken by contact, inferred for both routes from the energy balance; ignores impulses reported by a route.
 class MissingEnergy : public Ledger {
  public:
   explicit MissingEnergy(const Model& model) : Ledger(model, ContactLoss::inferred) {}
@@ -396,8 +396,8 @@ std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const 
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
 }
 
-/// The two finer paths, extrapolated to a step of 0 for an error of order 2. If the error is of this order, these paths
-/// differ by far less than the error of the fine path; otherwise by as much as before, or more.
+/// The two finer paths, extrapolated to a step of 0 for an error of order 2. If the error is of this order, the
+/// extrapolated paths differ by far less than the error of the fine path; otherwise by as much as before, or more.
 RefinementStudy extrapolated(RefinementStudy study) {
   const auto extrapolate = [](RoutePath& fine, const RoutePath& coarse) {
     for (size_t i = 0; i < std::min(fine.x.size(), coarse.x.size()); ++i) fine.x[i] += (fine.x[i] - coarse.x[i]) / 3;
@@ -449,7 +449,7 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   const Run seen{run.step, interval * most, most};
   auto events = refine_leapfrog_events(scene, seen, first, 2);
   if (!events) return std::nullopt;
-  // a third of the tolerance, so that a run's own error may be at least twice the bar
+  // a third of the tolerance, which leaves at least two bars for a run's own error
   const double largest_bar = scene.tolerance / 3;
   const Run part = known_part(*events, seen, largest_bar);
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};

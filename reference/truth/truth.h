@@ -41,10 +41,10 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// packages.
 /// The trajectory is that of the first route at its last step. Its error bar, RMS over the particles, is the larger of
 /// two values: the first route's estimate, and the difference of the routes plus the second one's estimate. An estimate
-/// is three times the last refinement's difference divided by 2^p - 1, with the order p shown by the last two
-/// refinements, or the whole difference if they show none. Rounding is added: 1e-15 of the scene's size, or the random
-/// walk of one rounding per step. Returns nullopt if a route fails or the bar exceeds a hundredth of the motion: a less
-/// accurate result is no truth. The scene must be free of contact.
+/// is three times the last refinement's difference divided by 2^p - 1, where p is the order that the last two
+/// refinements show. If they show no order, it is the whole difference. Rounding is added: 1e-15 of the scene's size,
+/// or the random walk of one rounding per step. Returns nullopt if a route fails or the bar exceeds a hundredth of the
+/// motion: a less accurate result is no truth. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
 // Contact of few particles: two independent routes, as long as both can be followed.

@@ -1,8 +1,8 @@
 // Closed forms of particles on balls and planes: held by friction, bouncing, sliding.
 //
-// Coordinates along the normals of perpendicular fixed planes are independent without friction: each falls between one
-// or two walls. On a single plane with friction, the tangential speed changes at each impact and during resting
-// contact.
+// Without friction, the coordinates along the normals of perpendicular fixed planes are independent: each falls onto
+// one wall, or between two. On a single plane with friction, the tangential speed changes at each impact and during
+// resting contact.
 
 #include <Eigen/Geometry>
 
@@ -56,7 +56,7 @@ Flight after_bounces(Flight f, double g, double e, double t) {
     if (t <= flight) return {f.height + t * (f.speed - g * t / 2), f.speed - g * t};
     t -= flight;
     f = {0, e * impact};
-    // all later bounces take 2 v / (g (1 - e)); then the particle is at rest
+    // all later bounces together take 2 v / (g (1 - e)); after them, the particle is at rest
     if (e < 1 && t >= 2 * f.speed / (g * (1 - e)) * (1 - 1e-15)) return {0, 0};
   }
 }
@@ -150,7 +150,7 @@ Fall fallen(Fall c, double t, double negligible, Flight flight, Impact impact) {
   }
 }
 
-/// Coordinate along a plane that presses with the normal acceleration N.
+/// Coordinate along a plane that pushes the particle with a normal acceleration N.
 struct Slip {
   double y, v, a;  // m, m/s, m/s^2
   void fly(double t) { y += t * (v + a * t / 2), v += a * t; }
@@ -169,7 +169,7 @@ struct Slip {
 /// Motion along the normal of one plane or of two opposite planes.
 struct Between {
   Vec3 normal;
-  double wall, speed;  // m, m/s along the normal, of the first plane
+  double wall, speed;  // place (m) and speed (m/s) of the first plane, along the normal
   double friction;     // mu
   Fall fall;           // relative to the first plane; position and speed differ by particle
 };
@@ -180,12 +180,12 @@ struct MotionBetweenPlanes {
   std::vector<Vec3> direction;  // per particle; empty without friction
   Vec3 carried = Vec3::Zero();  // m/s, velocity of the plane with friction
 
-  /// Changes x and v of particle i to those after t (s).
+  /// Replaces x and v of particle i by their values after a time t (s).
   void move(int i, double t, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) const {
     const bool friction = !direction.empty();
     const Vec3 x0 = x, v0 = v, slip_direction = friction ? direction[i] : Vec3::Zero();
     Slip slip{0, (v0 - carried).dot(slip_direction), a.dot(slip_direction)};
-    // the component that no plane changes
+    // the velocity and the acceleration that no plane changes
     Vec3 steady = v0 - slip.v * slip_direction, free = friction ? Vec3::Zero() : a;
     Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();  // along the normals and the slip direction
     for (const Between& b : axes) {
@@ -250,7 +250,7 @@ std::optional<ExactSolution> between_planes(const Scene& scene) {
 // u = theta'^2, the motion on the ball is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u, which is linear:
 //   u = C e^(2 mu theta) + A cos theta + B sin theta,
 //   A = (g/R) (4 mu^2 - 2) / (1 + 4 mu^2),  B = -6 mu (g/R) / (1 + 4 mu^2).
-// It leaves the ball where u = (g/R) cos theta; time is the integral of dtheta / sqrt(u).
+// The particle leaves the ball where u = (g/R) cos theta; time is the integral of dtheta / sqrt(u).
 
 namespace {
 

@@ -72,11 +72,11 @@ namespace {
 
 using HangingState = std::array<double, 4>;
 
-/// Pulled by the hinges, the strip rises from its middle to them by less than a right angle.
+/// The hinges pull the strip, so it rises from its middle towards them by less than a right angle.
 constexpr double most_angle = std::numbers::pi / 2;
 
-/// Half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, from theta'(0).
-/// Returns the states after each step, up to the first one that bends down or is upright.
+/// Integrates half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, with
+/// theta'(0) = curvature. Returns the states after each step, up to the first one that bends down or is upright.
 std::vector<HangingState> hanging_states(double pull, double weight, double curvature) {
   boost::numeric::odeint::runge_kutta4<HangingState> rule;
   HangingState state{0, curvature, 0, 0};
@@ -93,8 +93,8 @@ std::vector<HangingState> hanging_states(double pull, double weight, double curv
   return all;
 }
 
-/// The smallest theta'(0) > 0 without moment at the hinge. With theta'(0) = 0 the strip bends down; with weight / 2,
-/// the value of a level beam without pull, it bends up.
+/// The smallest theta'(0) > 0 at which the moment at the hinge vanishes. With theta'(0) = 0 the strip bends down. With
+/// weight / 2, which is the value for a level beam without pull, it bends up.
 double hanging_curvature(double pull, double weight) {
   const auto left = [&](double curvature) {
     const HangingState end = hanging_states(pull, weight, curvature).back();
@@ -110,8 +110,8 @@ double hanging_curvature(double pull, double weight) {
 
 HangingStrip::HangingStrip(double length, double span, double weight, double rigidity) : half_(length / 2) {
   assert(0 < span && span < length && weight > 0 && rigidity >= 0);
-  // sinh(u) / u = length / span with u = span / (2 H / w). The root lies below a point where even the lower bound e^u /
-  // (2 u) is larger.
+  // sinh(u) / u = length / span with u = span / (2 H / w). The root lies below the upper end of the interval, at which
+  // sinh(u) / u, about e^u / (2 u), is larger.
   const double ratio = length / span;
   const double u =
       root_between(1e-8, 4 + 2 * std::log(ratio + 1), [&](double at) { return std::sinh(at) / at - ratio; });

@@ -21,8 +21,8 @@ struct ClampedStrip {
 /// shooting over theta'(0), integrated with the classical Runge-Kutta rule in steps of L / 4000, with the load on the
 /// grid. theta'(0) is at most the curvature that all loads cause in a level strip. B theta'(0)^2 / 2 equals w times the
 /// integral of sin theta over s, plus P sin theta at the load, so theta'(0) is also at most (2 (w L + P) / B)^(1/2).
-/// Among the solutions, the strip that hangs down has the largest theta'(0): the first root below these bounds, at
-/// which theta'(L) > 0.
+/// Among the solutions, the strip that hangs down has the largest theta'(0). At these bounds theta'(L) > 0, so this
+/// solution is the first root found when searching downwards from them.
 class Elastica {
  public:
   explicit Elastica(const ClampedStrip& strip);

@@ -73,7 +73,7 @@ double DrivenMotion::velocity(double t) const {
 }
 
 double DrivenMotion::amplitude_bound() const {
-  // sqrt(u^2 + u'^2/w2) grows by at most the forcing / w per time, which is little between two evaluations
+  // sqrt(u^2 + u'^2/w2) grows per unit time by at most the forcing / w, which is little between two evaluations
   const double w = std::sqrt(omega2_), size = std::abs(amplitude_);
   const double forcing =
       size * (std::hypot(omega2_, omega_ * dashpot_) + 1.875 * dashpot_ / ramp_);  // m/s^2, see max_speed
@@ -175,7 +175,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(n);
   for (const Spring& s : springs->list) {
     const double d = line->along[s.a] - line->along[s.b];
-    const double pull = s.k * (std::abs(d) - s.rest) * (d > 0 ? 1 : -1);  // exact if the start is the rest length
+    const double pull = s.k * (std::abs(d) - s.rest) * (d > 0 ? 1 : -1);  // exact difference near the rest length
     all[s.a] -= pull, all[s.b] += pull;
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(k);
@@ -197,7 +197,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(free.size()); ++i) {
     Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.vectors.col(i);
     const double largest = shape.cwiseAbs().maxCoeff();
-    // dual of the shape: their product, weighted by the masses, is 1
+    // dual of the shape, including the masses, so that the product of shape and dual is 1
     const Eigen::VectorXd dual = largest * mass.asDiagonal() * shape;
     shape /= largest;
     const double omega2 = vibrations.values[i];

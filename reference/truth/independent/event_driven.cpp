@@ -42,10 +42,10 @@ constexpr double lowest_rebound = 1e-12;    // relative to the scene's size, bel
 constexpr double shortest_slide = 1e-10;    // relative to the scene's size
 constexpr double rounded_to_rest = 3e-13;   // relative to the speed after a fall over the scene's size
 constexpr double surface_rounding = 2e-15;  // relative to radius and centre: no impact
-constexpr double most_work = 1e7;           // particle accelerations between samples: a second or two
+constexpr double most_work = 1e7;           // particle accelerations between samples, which take a second or two
 constexpr int most_events_in_interval = 10000;
 
-/// A solid now and at the start of the step; "ball" includes planes.
+/// A solid, now and at the start of the step. In this file, balls include planes.
 struct Ball : Solid {
   Vec3 centre_before = start, velocity_before = velocity;
 };
@@ -73,7 +73,7 @@ double first_negative(Function f, double high, double at_high) {
     const double value = f(s);
     return value == 0 ? least : value;
   };
-  // 0 at the start (a slide from rest) counts as positive: the first trial halves the bracket
+  // f(0) = 0 (a slide from rest) counts as positive, so that the first trial halves the bracket
   const double at_start = std::max(f(0), -at_high);
   const auto narrow = [high](double a, double b) {
     return b - a <= 1e-13 * high + 4 * std::numeric_limits<double>::epsilon() * b;
@@ -185,7 +185,7 @@ class EventDrivenWorld : public World {
       }
       const Vec3 a = acceleration(rate, i) - ball.acceleration, n = normal(y, i, p.ball), v = seen_from(y, i, p.ball);
       const double pressed = push(y, i, p.ball, a), friction = ball.friction;
-      // friction continues beyond a stop, so that the right-hand side stays smooth; the step then ends at the stop
+      // friction keeps its direction beyond a stop, so that the right-hand side is smooth; the step is cut at the stop
       Vec3 direction = along(v, n);
       const double size = direction.norm();
       direction = size > 0 ? Vec3(direction / size * (direction.dot(p.forward) < 0 ? -1 : 1)) : p.forward;

@@ -17,8 +17,8 @@ namespace crosscheck {
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's Dormand-Prince 5(4) to run.tolerance, interpolated at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) with contact, interrupted at every impact, take-off, stop and slip, located to
-/// round-off (event_driven.cpp). Steps end at the samples and are at most run.step. Throws Unsupported if there is no
+/// odeint's Dormand-Prince 5(4) with contact (event_driven.cpp), interrupted at every impact, take-off, stop and slip,
+/// which are located to round-off. Steps end at the samples and are at most run.step. Throws Unsupported if there is no
 /// contact, or if a particle moves between two surfaces or rests between two moving ones.
 Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
 /// Moreau's midpoint rule at run.step, with contact between any number of particles and fixed or moving solids
@@ -26,9 +26,9 @@ Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer)
 /// a particle touches two surfaces at once.
 Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
-/// the observed times. Its estimate compares different numbers of stages, and so also detects errors due to explicit
-/// time dependence alone. Both rules of Fehlberg's 7(8) pair weight this dependence alike, so that pair follows a moved
-/// pin with an error of 1e-9 of the scene's size despite a tolerance of 1e-13.
+/// the observed times. Its estimate compares different numbers of stages, so it also detects errors due to explicit
+/// time dependence alone. Both rules of Fehlberg's 7(8) pair weight this dependence alike. For a moved pin, the pair's
+/// error is therefore 1e-9 of the scene's size despite a tolerance of 1e-13.
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);
 /// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
 /// package's name if the suite was built without it.

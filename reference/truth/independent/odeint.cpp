@@ -97,8 +97,8 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
         h_(std::min(run.step, run.duration)),
         ramp_end_(scene.model.particles.move ? scene.model.particles.move->ramp : 0) {}
   void step(double t, double t_next) override {
-    // At the end of the ramp the third derivative of a moved pin jumps; a step that ends there keeps its order. A jump
-    // within a sliver of a sample counts as at the sample, which changes positions by less than rounding.
+    // At the end of the ramp the third derivative of a moved pin jumps; a step that ends there keeps its order. If the
+    // jump is within a sliver of a sample, the step ends at the sample, which changes positions by less than rounding.
     const double sliver = 1e-12 * t_next;
     if (t + sliver < ramp_end_ && ramp_end_ + sliver < t_next) {
       integrate_to(t, ramp_end_);

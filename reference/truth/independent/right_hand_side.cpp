@@ -131,7 +131,7 @@ RightHandSide::RightHandSide(const Scene& scene, double time_unit)
       for (const double v : scene.start.v.col(i)) start_.push_back(time_unit_ * v);
 }
 
-/// A term without an overload does not compile: none is omitted silently.
+/// A term without an overload does not compile, so no term is omitted silently.
 void RightHandSide::add_term(const Term& term) {
   struct TermVisitor {
     RightHandSide& f;
@@ -309,8 +309,8 @@ void RightHandSide::add_aerodynamic_forces(double t) {
   }
 }
 
-/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each, where d, u and a are the differences of its
-/// ends' positions, velocities and accelerations.
+/// Adds forces along the rods. They make d . a + |u|^2 = 0 for each rod, where d, u and a are the differences between
+/// the positions, velocities and accelerations of the rod's ends.
 void RightHandSide::add_constraint_forces() {
   const auto count = static_cast<int>(hard_distances_.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);

@@ -54,7 +54,7 @@ struct Solid {
   /// Foot of the perpendicular from x.
   Vec3 foot(const Vec3& x) const { return flat() ? Vec3(x - height(x) * up) : Vec3(centre + radius * normal(x)); }
 };
-/// The scene's solids. Throws Unsupported without contact, or with hard distances.
+/// The scene's solids. Throws Unsupported if there is no contact, or if there are hard distances.
 std::vector<Solid> solids_of(const Scene& scene);
 
 class RightHandSide {

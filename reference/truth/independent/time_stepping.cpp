@@ -3,10 +3,10 @@
 // Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg. 177 (1999).
 //
 // Let x_m = x + h v / 2, and let v_f = v + h a(x_m) be the velocity without contact. A solid that contains x_m gives
-// the impulse p n + q, with q along its surface. Here w is the velocity relative to the solid; p >= 0 is complementary
-// to w+.n + e min(w.n, 0) >= 0. Friction obeys |q| <= mu p, with equality, and opposite to the tangential part of w+,
-// if that part does not vanish. Then x+ = x_m + h v+ / 2. The order is 2 in free flight, and 1 with contact. No
-// particle is moved out of a solid, so it may be inside by the distance that it moves in a step.
+// the impulse p n + q, with q along its surface. The velocity relative to the solid is w, after the step w+; p >= 0 is
+// complementary to w+.n + e min(w.n, 0) >= 0. Friction obeys |q| <= mu p. If the tangential part of w+ does not vanish,
+// q is opposite to it, and |q| = mu p. The new position is x+ = x_m + h v+ / 2. The order is 2 in free flight, and 1
+// with contact. No particle is moved out of a solid, so it may be inside by a step's motion.
 
 #include <Eigen/Core>
 
