@@ -300,8 +300,8 @@ TEST(BulletImplicit, OneSpringHasBackwardEulersFrequencyAndDecayToSixDigits) {
       const std::complex<double> root = root_of(y);
       EXPECT_NEAR(std::arg(root) / std::atan(omega * h), 1, 1e-6);
       EXPECT_NEAR(std::abs(root) * std::sqrt(1 + omega * omega * h * h), 1, 1e-6);
-      // Conversely, the frequency is neither that of the continuous spring nor of symplectic Euler, which differ by at
-      // least 1/3 (h omega)^2.
+      // Conversely, the frequency is neither that of the continuous spring nor that of symplectic Euler. From each of
+      // them it differs by about (h omega)^2 / 3 or more.
       const double away = omega * omega * h * h / 4;
       EXPECT_GT(std::abs(std::arg(root) / (omega * h) - 1), std::min(away, 0.05));
     }
@@ -324,7 +324,8 @@ Scene reversed(const Scene& scene) {
 }
 
 TEST(Bullet, PinsFirstOrLastMakeNoDifference) {
-  // Links keep their order, so sums over links agree bit for bit. The implicit solver sums over nodes.
+  // Sums over links agree bit for bit, as links keep their order. The implicit solver sums over nodes, which are
+  // reversed.
   for (const Scene& scene : {shortened("chain", 1e-3), cloth(drag, "", moved)})
     for (const auto& [method, bound] : {std::pair{"bullet/deformable-explicit", 0.},
                                         {"bullet/pbd", 0.},

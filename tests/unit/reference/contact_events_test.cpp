@@ -32,7 +32,7 @@ std::pair<double, double> orders(Error error, double h) {
   return {slope(coarse, middle), slope(middle, fine)};
 }
 
-/// Expects order 2: within 0.1 for leapfrog, and at least 1.9 for the other rules.
+/// Expects order 2: within 0.1 for leapfrog and trapezoidal, and above 1.9 for the other rules.
 void expect_second_order(const std::string& rule, std::pair<double, double> seen) {
   for (const double order : {seen.first, seen.second}) {
     EXPECT_GT(order, 1.9) << rule;
@@ -140,9 +140,9 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
       ASSERT_TRUE(exact);
       const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
       const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
-      // Each of a few hundred steps rounds positions of 1.3 m and an impact time at 2.4 m/s. Newton's method of
-      // implicit rules may leave 1e-10 of the force m v / h at 2 m/s, which displaces the particle by 1e-10 g t^2 times
-      // v / (h g).
+      // Each of a few hundred steps rounds a position of 1.3 m, and the time of an impact at 2.4 m/s. Newton's method
+      // of implicit rules may leave 1e-10 of the force m v / h at 2 m/s, which displaces the particle by 1e-10 g t^2
+      // times v / (h g).
       const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
       for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
       EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
@@ -164,8 +164,8 @@ TEST(ContactEvents, EnergyIsAccountedForInSlidesStopsAndImpacts) {
           worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
         return worst;
       };
-      // Energy gap (J), of second order in h: some joules are exchanged, with a relative error of about (h / 1 s)^2.
-      // Each ignored bounce, no higher than a step resolves, adds m g (g h^2 / 8).
+      // Energy gap (J), of second order in h: some joules are exchanged, with a relative error of about (h / 1 s)^2. A
+      // bounce that is too low to be resolved by a step is ignored, which adds m g (g h^2 / 8).
       EXPECT_LT(open(1e-3), 1e-4) << rule;
       EXPECT_LT(open(1e-4), 1e-6) << rule;
     }
@@ -218,7 +218,7 @@ TEST(EventDriven, IsWhatClosedFormsSay) {
   }
 }
 
-/// A chain of n particles along a great circle over the top of a ball, whose springs are stretched by weight only.
+/// A chain of n particles along a great circle over the top of a ball. Only weight stretches the springs.
 Scene chain_on_ball(int n, double friction, const std::string& more = "") {
   std::string text;
   for (int i = 0; i < n; ++i) {
@@ -243,8 +243,8 @@ TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
         if (friction == 0) {
           expect_second_order(rule, orders(error, 5e-3));
         } else {
-          // Errors vary by some per cent with the instant in a step at which friction lets go: use four halvings
-          // together.
+          // Errors vary by some per cent with the instant in a step at which friction lets go, so the order is averaged
+          // over four halvings.
           EXPECT_NEAR(slope(error(2.5e-3), error(2.5e-3 / 16)) / 4, 2, 0.1);
         }
       }
@@ -269,8 +269,8 @@ TEST(EventTruth, OfAChainCoversItsErrorAndIsNoDifference) {
 
 TEST(EventDriven, StopsSlipsAndShortBouncesDoNotHoldItUp) {
   // Friction may reverse a slow slide within a single step, however short. Without the creep rule, the second scene
-  // took 4e7 evaluations and the third never ended. The bounces of the first scene never ended either if impacts were
-  // detected 1e-13 of the radius inside.
+  // took 4e7 evaluations and the third never ended. The first scene's bounces also never ended, if impacts were
+  // detected only at a depth of 1e-13 of the radius.
   for (const unsigned seed : {3u, 4u, 8u}) {
     const Scene scene = random_contact_scene(seed);
     NullObserver nobody;
@@ -290,7 +290,7 @@ Scene on_moving_ball(double friction, const char* position, const char* amplitud
 }
 
 TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
-  // `round_off`: rounding in the thousands of steps of the other route, a few hundred eps of the positions.
+  // `round_off`: rounding errors of the other route in its thousands of steps, a few hundred eps of the positions.
   const auto expect_bar = [](const Scene& scene, auto exact, double round_off) {
     const auto truth = event_truth(scene, default_run(scene));
     ASSERT_TRUE(truth);
@@ -495,8 +495,8 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
       // The paths differ by rounding. They also differ by h^3 for each particle that leaves a ball in a fused step
-      // although an acceleration of O(h) still pressed it on. A first-order rule then takes a path of its own, h^2
-      // away.
+      // although an acceleration of O(h) still presses it onto the ball. Under a first-order rule, its two paths
+      // separate by h^2.
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)

@@ -1,4 +1,4 @@
-// Closed forms with contact and by modes satisfy their own laws, mysim converges to them, and other scenes are refused.
+// Closed forms with contact or by modes satisfy their own laws; mysim converges to them; other scenes are refused.
 
 #include <Eigen/Geometry>
 
@@ -71,7 +71,7 @@ TEST(Slide, SatisfiesCoulombsLawOnTheBallAndFliesFreelyAfterwards) {
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(exact);
   const Sphere& ball = scene.model.find<Spheres>()->list[0];
-  const double radius = ball.contact_radius(), dt = std::cbrt(eps) / 3;  // 1/s: u'/u is about 3
+  const double radius = ball.contact_radius(), dt = std::cbrt(eps) / 3;  // s; u'/u is about 3 /s
   const Vec3 g(0, -9.81, 0);
   bool left = false;
   for (double t = 0.01; t < 0.99; t += 0.01) {
@@ -107,7 +107,8 @@ TEST(Slide, WithoutFrictionItLeavesWhereEnergySays) {
     const double middle = (low + high) / 2;
     (exact->at(middle).x.col(0).norm() > radius * (1 + 1e-13) ? high : low) = middle;
   }
-  // The gap grows as the cube of the time. At 2.6 m/s on a ball of 1 m, it reaches 1e-13 of the radius after 5e-5 s.
+  // After departure, the gap to the ball grows as the cube of the time. At 2.6 m/s on a ball of 1 m, it reaches 1e-13
+  // of the radius after 5e-5 s.
   EXPECT_NEAR(exact->at(low).x(1, 0) / radius, cosine, 2e-4);
 }
 

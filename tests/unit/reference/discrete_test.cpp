@@ -63,8 +63,8 @@ std::vector<Scene> linear_scenes() {
   return scenes;
 }
 
-/// Residual of an implicit rule's solver, 1e-12 of the forces in each step (mysim/implicit/newton.cpp), converted to a
-/// velocity, and to a position after 1 / omega.
+/// An implicit rule's solver leaves a residual of 1e-12 of the forces in each step (mysim/implicit/newton.cpp). It is
+/// converted to a velocity, and to a position after 1 / omega.
 double left_by_solver(const Stepper& s, const Truth& truth, const Scene& scene, const crosscheck::Run& run) {
   if (s.evaluations > 0) return 0;
   const auto linear = linear_scene(scene);
@@ -190,8 +190,8 @@ TEST(ExactDiscrete, BulletsExplicitWorldIsSymplecticEulerOnTheSpring) {
 }
 
 TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
-  // The free step applies the dashpot's share, including weight, before the spring is projected. In equilibrium the
-  // spring therefore carries the weight divided by 1 + h c / m.
+  // For the dashpot, the free step divides the velocity by 1 + h c / m, including the part gained from gravity. In
+  // equilibrium the spring therefore carries the weight divided by 1 + h c / m.
   const Scene scene = spring(0, 2);  // 0.5 kg on 50 N/m: exp(-c t / 2m) is 2e-17 after 20 s
   for (const double h : {5e-3, 1e-2}) {
     const crosscheck::Run run{h, 20, 1};
@@ -214,8 +214,8 @@ TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
       Increment product = Increment::Zero();
       for (int n = 0; n <= 1000; ++n) {
         if (n < 5 || n % 111 == 0) {
-          // Each product rounds all entries by some eps of the largest, which grows as n in free fall and under a
-          // constant push.
+          // Each product rounds all entries by some eps of the largest entry. That entry grows as n in free fall and
+          // under a constant push.
           EXPECT_LT((increment_power(e, n) - product).norm(), 10 * eps * (n + 1) * (1 + product.norm()))
               << rule.name << n;
         }
@@ -232,8 +232,8 @@ TEST(ExactDiscrete, SaysWhereARuleHasNoClosedForm) {
   EXPECT_TRUE(begins(reason("xpbd", shipped_scene("normal-modes"), run), "this rule sweeps the springs one by one"));
   EXPECT_TRUE(begins(reason("leapfrog", shipped_scene("circle"), run), "the scene is a first-order system"));
   EXPECT_TRUE(begins(reason("rk4", random_spring(2, false, true), run), "the pins are moved"));
-  // Forward Euler's amplitude grows by (h omega)^2 / 2 per step: from 0.1981 m to the anchor at 1.0981 m in ln(5.54) /
-  // 0.5 s = 3.42 s.
+  // Forward Euler's amplitude grows by (h omega)^2 / 2 per step, i.e. at a rate of 0.5 /s. From 0.1981 m, it reaches
+  // the anchor at 1.0981 m after ln(5.54) / 0.5 s = 3.42 s.
   const Scene scene = shipped_scene("spring");
   EXPECT_TRUE(begins(reason("explicit-euler", scene, {0.01, 10, 100}), "at 3.5 s a spring may turn over"));
   EXPECT_EQ(reason("explicit-euler", scene, {0.01, 3.4, 34}), "");

@@ -34,7 +34,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
           const int samples = 4200 / per_sample;
           const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
           // Speeds are central differences. At the limit of rk4, where a step covers 109 degrees of the vibration,
-          // these are a third of rk4's own velocities. At 1.01 of the limit they stay at four times the true speed.
+          // central differences are a third of rk4's own velocities. At 1.01 of the limit they stay at four times the
+          // true speed.
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else
@@ -150,7 +151,7 @@ TEST(DivergenceMonitorOnSamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
 }
 
 TEST(DivergenceMonitorOnSamples, GoesByEnergyWhereThereIsNothingToHoldThemAgainst) {
-  // K^ = (x_2 - x_0)^2 / 8 is compared with 10 B = 2005 J: 126.6 m; thirty times the initial length is 33 m
+  // K^ = (x_2 - x_0)^2 / 8 exceeds 10 B = 2005 J beyond 126.6 m; the limit of stretch, 30 initial lengths, is 33 m
   EXPECT_EQ(verdict_on({1.2, 32}, false), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 34}, false), Verdict::stretch);
   EXPECT_EQ(verdict_on({1.2, 140}, false), Verdict::energy);

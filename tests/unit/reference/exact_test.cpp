@@ -260,8 +260,9 @@ TEST(HangingRest, IsWhereMysimComesToRest) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {std::min(2e-3, 0.5 * s.limit(omega, 3)), 16, 8});
     for (int i = 0; i < t.frames(); ++i)
-      // Every vibration is underdamped and decays as e^(-gamma t / 2). The factor of two covers what drag adds
-      // initially. Implicit rules leave 1e-12 of the forces, 4 N, on a swing with a restoring stiffness of 1 N/m.
+      // Every vibration is underdamped and decays as e^(-gamma t / 2). The factor of two is for its amplitude, which
+      // drag makes larger than the initial displacement. Implicit rules leave 1e-12 of the forces, 4 N, on a swing with
+      // a restoring stiffness of 1 N/m.
       EXPECT_LE(largest_column(t.x[i] - *rest), 2 * off * std::exp(-1.5 * t.t[i]) + 4e-12);
     // the rest lengths of the springs alone would not give this position
     EXPECT_GT(std::abs(t.x.back().col(3).norm() - scene.start.x.col(3).norm()), 1e-3);
@@ -274,7 +275,8 @@ TEST(HangingRest, OneSweepAStepHangsLongerByTheSquareOfTheStep) {
     const Trajectory t = trajectory_of(stepper("xpbd"), scene, {h, 16, 1});
     return (*hanging_equilibrium(scene) - t.x.back())(1, 3);
   };
-  // Each step first falls freely by h^2 g / (1 + h gamma), which one Gauss-Seidel pass propagates from link to link.
+  // In each step, particles first fall freely by h^2 g / (1 + h gamma). One Gauss-Seidel pass propagates this fall from
+  // link to link.
   const double coarse = lower(4e-3), fine = lower(2e-3);
   EXPECT_NEAR(slope(coarse, fine), 2, 0.02);  // the next order is smaller by h gamma = 0.01
   EXPECT_GT(fine, 2e-3 * 2e-3 * 9.81);

@@ -47,8 +47,8 @@ TEST(HardDistances, AreKeptToSecondOrder) {
         worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
       // One Gauss-Seidel pass per step leaves an error as large as the transverse motion in a step: h^2 times an
-      // acceleration, divided by a link's length. This is of second order, but with another step the whip reaches its
-      // maximum at a different moment.
+      // acceleration, divided by a link's length. This is of second order, but the moment at which the whip reaches its
+      // maximum depends on the step.
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -76,14 +76,14 @@ TEST(HardDistances, APendulumHasTheRigidPeriodToFirstOrder) {
     const double coarse = error(s, 2e-3), fine = error(s, 1e-3);
     fmt::print("{}: period off by {:.3g} s and {:.3g} s of {:.6g} s\n", s.name, coarse, fine, period);
     // Numerical damping is h omega^2 / 2: 1 % of the amplitude per swing at 1e-3 s. The period decreases by theta^2 / 8
-    // = 0.14 times that, 1.5e-3, plus elliptic corrections.
+    // = 0.14 times this percentage, i.e. by a relative 1.5e-3, plus elliptic corrections.
     EXPECT_LT(fine, 3e-3 * period);
     EXPECT_NEAR(slope(coarse, fine), 1, 0.3);
   }
 }
 
-/// The rope by the equations with Lagrange multipliers, differentiated twice: (J M^-1 J^T) lambda = J M^-1 f + J' v, M
-/// v' = f - J^T lambda. Uses rk4 with a dense solve.
+/// The rope's motion by Lagrange multipliers, from the distances differentiated twice: (J M^-1 J^T) lambda = J M^-1 f +
+/// J' v, M v' = f - J^T lambda. Uses rk4 with a dense solve.
 class RopeByMultipliers {
  public:
   explicit RopeByMultipliers(const Scene& scene) : scene_(scene) {}

@@ -10,7 +10,7 @@
 #include "reference/truth/truth.h"
 #include "tests/unit/helpers.h"
 
-// Skips a test if Debian's `package` is not installed. Call it first. `not_tried` says what is then not tested.
+// Skips a test if Debian's `package` is not installed. Call it first. `not_tried` says what remains untested.
 #define NEEDS_PROGRAM(program, package, not_tried) \
   if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
 #define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tested in a browser")

@@ -59,8 +59,8 @@ StateVector rate_apart(const Scene& scene, const State& s) {
   return rate;
 }
 
-/// Allowed difference (m/s^2) of two roundings: 16 roundings of the largest sum of magnitudes at one particle. Lengths
-/// are rounded before they are subtracted, so a spring contributes k (L + r).
+/// Allowed difference (m/s^2) of two accelerations that differ by rounding: 16 roundings of the largest sum of
+/// magnitudes at one particle. Lengths are rounded before they are subtracted, so a spring contributes k (L + r).
 double round_off(const Scene& scene, const State& s) {
   const Particles& p = scene.model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(p.size());

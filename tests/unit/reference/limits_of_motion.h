@@ -41,7 +41,7 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   for (const Spring& s : springs->list) at[s.a].push_back(&s), at[s.b].push_back(&s);
 
   // Load of each particle, including its own weight, from the pin downwards. There are as many springs as free
-  // particles, so each is reached once unless there is a loop, which leaves a particle unreached.
+  // particles, so each particle is reached once unless there is a loop, which leaves a particle unreached.
   std::vector<char> reached(n, 0);
   std::vector<double> carried(n, 0);  // kg
   std::vector<std::pair<const Spring*, int>> order;
@@ -66,8 +66,8 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   return x;
 }
 
-/// The limit of the motion for amplitudes towards 0. It is no exact solution of a scene with springs off a line, and is
-/// never claimed as one.
+/// The limit of the motion for amplitudes towards 0. Unless all springs lie on one line, it is not an exact solution of
+/// the scene. It is never claimed as one.
 struct LinearisedSolution {
   std::vector<double> omega;          // rad/s, angular frequencies of the vibrations, ascending
   std::function<State(double t)> at;  // s -> state

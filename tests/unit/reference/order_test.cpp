@@ -1,4 +1,4 @@
-// Orders of all steppers, from both sides, and error control: errors follow the tolerance.
+// Orders of all steppers, with bounds on both sides, and error control: errors follow the tolerance.
 
 #include "reference/truth/exact/exact.h"
 #include "tests/unit/helpers.h"
@@ -99,9 +99,9 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
         if (decade == 5) first = error;
         last = error;
       }
-      // Errors of R per step accumulate to between R^(p/(p+1)) and R: an exponent of 0.83 to 1 for p = 5. The fit
-      // starts at 1e-5: at 1e-4 the chain's steps are at the edge of stability (mean h omega = 2), where the error
-      // stays at the tolerance.
+      // Errors of the tolerance R per step accumulate to between R^(p/(p+1)) and R: an exponent of 0.83 to 1 for p = 5.
+      // The fit starts at 1e-5: at 1e-4 the chain's steps are at the edge of stability (mean h omega = 2), where the
+      // error stays at the tolerance.
       const double decades = std::log10(first / last) / 5;
       EXPECT_GT(decades, 0.7) << name;
       EXPECT_LT(decades, 1.3) << name;
@@ -218,9 +218,9 @@ TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
       // Without other losses, the imbalance is the error of a few hundred steps, plus the error of the contact rule.
       // Each step's error is below the tolerance times the 20 J that the fall converts.
       // In each step the contact rule moves a particle back by a h^2 / 2, where a = g cos theta - v^2 / R presses it
-      // on, and takes the energy m (a h)^2 / 2, which is too little by m h^2 a (v^2 / R) / 2. On the way down from
-      // rest, the product of `a` and v^2 / R is at most g^2 / 6, so for two kilograms g^2 h / 6 is missing after a
-      // second.
+      // onto the ball, and takes the energy m (a h)^2 / 2. This energy is too little by m h^2 a (v^2 / R) / 2. On the
+      // way down from rest, the product of `a` and v^2 / R is at most g^2 / 6, so for two kilograms g^2 h / 6 is
+      // missing after a second.
       const double rule = 9.81 * 9.81 / 6 * out.step;
       fmt::print("{} tolerance {:.0e}: contact took {:.4g} J, open {:.2g} J, the rule's {:.2g} J\n", s.name, tolerance,
                  rows.back().contact, rows.back().balance() - rows.front().balance(), rule);

@@ -65,8 +65,8 @@ TEST(Translation, OfTwelveScenesThereAndBackIsWithinTheStatedError) {
       expect_within(scene_of(scene, *target.numbers, file), scene, t);
       for (const TranslatedNumber& number : t.numbers) {
         if (number.rule->gather == NumberRule::Gather::median) continue;  // one slider for all springs: not one-to-one
-        // Conversions that are one-to-one err by the precision's round-off: by 2 + k h^2 / mu times as much for links,
-        // and by three times as much for frequencies, which are squared and combined with rounded masses.
+        // One-to-one conversions err by the precision's round-off times a factor: 2 + k h^2 / mu for links; 3 for
+        // frequencies, which are squared and combined with rounded masses.
         const double rounding = 0.5 * (target.single_precision ? 1.2e-7 : eps) + 8 * eps;
         EXPECT_LE(number.stated, (1 + 1e-9) * rounding * (3 + largest_K(scene))) << name_of(number.rule->quantity);
       }
@@ -158,8 +158,8 @@ TEST(Translation, OfOtherNumbersIsTheFormulas) {
   EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-implicit"), SceneNumber::stiffness), 250);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::stiffness), 0.004);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::dashpot), 0.5);
-  // Jolt takes ten sub-steps of 1 ms. Each multiplies velocities by 1 minus 1 ms times the damping, all ten by
-  // exp(-0.02).
+  // Jolt takes ten sub-steps of 1 ms. Each multiplies velocities by 1 minus 1 ms times the damping; all ten together
+  // must multiply them by exp(-0.02).
   const Translation jolt = in("jolt+n=10");
   EXPECT_NEAR(std::pow(1 - 1e-3 * engine_number(jolt, SceneNumber::drag), 10), std::exp(-0.02), 1e-7);
   EXPECT_FLOAT_EQ(engine_number(jolt, SceneNumber::stiffness), 0.004);

@@ -1,5 +1,5 @@
-// Planes: closed forms satisfy their own laws, the event-driven route and located events agree with closed forms,
-// comparison with Bullet's worlds, and planes in the certificate and the protocol.
+// Planes: closed forms satisfy their own laws; the event-driven route and located events agree with closed forms; and
+// Bullet's worlds, the certificate and the protocol handle planes.
 
 #include <Eigen/Geometry>
 #include <functional>
@@ -104,7 +104,8 @@ TEST(BetweenPlanes, ApicesAndPeriodsAreThoseOfABall) {
 }
 
 TEST(BetweenPlanes, FrictionAtImpactsAndEndlessBouncesFollowsCoulomb) {
-  // Each impact u e^k removes mu (1 + e) u e^k of the tangential speed, until the particle rests and slides to a stop.
+  // Each impact at speed u e^k removes mu (1 + e) u e^k of the tangential speed. After the bounces, the particle slides
+  // to a stop.
   const double e = 0.5, mu = 0.1, u = std::sqrt(2 * g * 0.2), fall = u / g, end = fall * (1 + e) / (1 - e);
   const Scene scene = slope(0, mu, e, 0.2, 2, 3);
   const auto exact = exact_solution(scene);
@@ -265,7 +266,7 @@ TEST(BulletOnPlanes, HoldsAndSlidesAtCoulombsAngleAndDiffersFromOursByRoundings)
 }
 
 TEST(BulletOnPlanes, HoldsWhatSlidesFarOverAFaceThatIsNearlyAlongAnAxis) {
-  // If Bullet ignores the rotation, the face of the unrotated cube ends next to the particle.
+  // If Bullet ignored the rotation, the face of the unrotated cube would end next to the particle.
   for (const Vec3& direction : {Vec3(0.09, -0.98, 0.2), Vec3(0.03, -1, 0.02), Vec3(0.1, 0.1, 0.99)}) {
     const Vec3 n = direction.normalized();
     int axis = 0;

@@ -41,7 +41,7 @@ TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
     EXPECT_EQ(time_grid(task.run).steps_per_sample, time_grid(run).steps_per_sample);
     EXPECT_EQ(task.run.tolerance, run.tolerance);
     EXPECT_EQ(task.options, (std::vector<std::string>{"n=10", "shipped"}));
-    // trajectories must agree bit for bit, also in properties outside the hash
+    // trajectories must agree bit for bit, which also tests properties that the hash does not cover
     const Stepper& rule = stepper(scene.model.first_order() ? "rk4" : "symplectic-euler");
     if (!takes(rule, scene)) continue;
     const crosscheck::Run few{scene.step, 10 * scene.step, 10};

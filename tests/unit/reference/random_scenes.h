@@ -1,5 +1,5 @@
-// Random scenes by seed: with a closed form, small networks without contact, few particles on balls at rest or on
-// planes.
+// Random scenes by seed: scenes with a closed form, small networks without contact, and few particles on balls at rest
+// or on planes.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -213,9 +213,8 @@ inline Scene random_contact_free_scene(unsigned seed) {
   return w.scene(fmt::format("random-network-{}", seed), 0.5, 0.2 / omega, 10);
 }
 
-/// Particles, a pendulum, a short chain or a small net that falls on one or two balls at rest, with friction of 0 to
-/// 0.6 and restitution of 0 to 0.9, with or without drag. Lasts 0.5 to 1.2 s, with steps of a tenth of the stability
-/// limit.
+/// Particles, a pendulum, a short chain or a small net, falling on one or two balls at rest, with friction of 0 to 0.6
+/// and restitution of 0 to 0.9, with or without drag. Lasts 0.5 to 1.2 s, with steps of a tenth of the stability limit.
 inline Scene random_contact_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;
