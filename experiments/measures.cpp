@@ -33,8 +33,8 @@ std::optional<State> rest_of(const Scene& scene) {
   Points a(3, s.x.cols());
   const double omega = highest_frequency(model, s);
   if (!(omega > 0)) return std::nullopt;
-  // 2 / omega is the stability limit at the start; a stretched spring also resists sideways motion, but less than
-  // extension
+  // 2 / omega is the stability limit at the start. The limit may change later, because a stretched spring also resists
+  // sideways motion (but less than extension), so 0.8 / omega leaves a margin
   double h = 0.8 / omega, before = 0, scale = 0;
   constexpr int most_steps = 100000, check = 50;
   // rounding error of the acceleration at rest, where forces cancel: a few ulps of the force of a spring that is

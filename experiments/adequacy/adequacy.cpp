@@ -36,8 +36,8 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
   return scene;
 }
 
-/// Error (m) of the model without the ingredients `out`, compared with a run of the full model from the same start with
-/// the same method and step. If `out` is empty: the smallest error of a single removal. Empty if the full model fails.
+/// Error (m) of the model without the ingredients `out`: its distance from a run of the full model with the same start,
+/// method and step. If `out` is empty, returns the smallest error of a single removal. Empty if the full model fails.
 std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
                                    const std::vector<std::string>& out) {
   Recorder full;

@@ -24,8 +24,8 @@ Scene for_rest(Scene scene) {
   return scene;
 }
 
-/// Height of the highest point above the lowest at rest, along gravity, m. Moves the scene's start to this rest,
-/// because cloths with similar stiffness have a similar rest.
+/// Height difference between the highest and the lowest point of the cloth at rest, m. Moves the scene's start to the
+/// state of rest, because it is a good initial guess for the rest of a cloth with similar stiffness.
 std::optional<double> settle_and_sag(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<double> factor_for(const Scene& at_rest, double wished, double sag
     if (!(inverse > 0) || !std::isfinite(inverse)) return std::nullopt;
     a = b, of_a = *of_b;
     b = std::clamp(1 / inverse, b / 2, b * 2);
-    if (std::abs(b / a - 1) < 2e-3) return b;  // precise enough: the fitted exponent is less certain
+    if (std::abs(b / a - 1) < 2e-3) return b;  // precise enough: the exponent fitted to these factors is less certain
   }
   return std::nullopt;
 }
@@ -117,7 +117,7 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
     for (int i = 0; i + 2 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 2, bend);
     Scene scene = parse_scene(text, "bending");
-    // does not start flat, because that state is unstable: bend springs do not resist the first turn
+    // does not start flat: a flat line is unstable, because its bend springs do not resist infinitesimal turns
     for (int i = 2; i < n; ++i) scene.start.x(1, i) -= 0.1 * (i - 1) * (i - 1) * d * d;
     return scene;
   };

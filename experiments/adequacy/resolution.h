@@ -12,14 +12,14 @@ namespace crosscheck {
 struct GridResult {
   int n;                         // particles along the longer side
   std::optional<double> error;   // m, largest RMS distance from the finest grid in the window, at 17 x 17 points
-  std::optional<double> sag;     // m, height of the highest point above the lowest at rest
+  std::optional<double> sag;     // m, height difference between the highest and lowest point at rest
   std::optional<double> factor;  // 1, common factor of all stiffnesses that gives the sag of the finest grid
   Verdict verdict;
   long evaluations = 0, springs = 0;
 };
 
-/// Runs the cloth with leapfrog at each resolution, in ascending order; the last one is the reference. If the scene has
-/// a state of rest, computes it with fixed pins and without winds and drag.
+/// Runs the cloth with leapfrog at each resolution, in ascending order; the last one is the reference. Also computes
+/// the state of rest with fixed pins and without winds and drag, if there is one.
 std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes);
 
 /// Exponent of y = a x^p and its standard error, from a least-squares fit of log y. power_law() returns nullopt for
@@ -31,10 +31,10 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 
 /// Scaling of the stiffness k of bend (skip-one) springs with the grid, for the same droop. The model is one line of a
 /// cloth of 1 m and 0.1 kg, held flat by bend springs and kept from stretching by structural springs. Two pinned
-/// particles, half a cell to either side of the clamp, clamp it flat, so that the free length is the same on all grids.
-/// Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by d kappa, which
-/// shortens a bend spring over them by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32 per particle, and
-/// that of the cloth is k d^4 kappa^4 / 32 per area. Hence k must grow as d^-4.
+/// particles, half a cell to either side of the clamp, hold the line flat there, so that the free length is the same on
+/// all grids. Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by d kappa,
+/// which shortens a bend spring that spans two cells by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32
+/// per particle, and that of the cloth is k d^4 kappa^4 / 32 per area. Hence k must grow as d^-4.
 struct BendSprings {
   int n;
   double cells;      // 1, number of cells in the free length: n - 3/2

@@ -16,8 +16,8 @@ namespace crosscheck {
 
 namespace {
 
-/// The file's time.tolerance (m) for a relative tolerance, rounded to 20 bits, so that a run of the file has exactly
-/// the tolerance of the trial.
+/// Value of `time.tolerance` (m) in the advised file for a relative tolerance. It is rounded to 20 bits, so that a run
+/// of the file has exactly the tolerance of the trial.
 double written_tolerance(const Scene& scene, double relative) {
   int exponent = 0;
   const double part = std::frexp(100 * relative * scene.size(), &exponent);
@@ -219,7 +219,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
     least->scene.samples = scene.samples;  // the trials use the same samples as a run of the written file
     models.insert(models.begin(), std::move(*least));
   }
-  // the truth sampled like the scene has a larger error bar than the densely sampled one
+  // a truth sampled at the scene's own interval has a larger error bar than the densely sampled truth
   const auto sampled = truth_of(scene, default_run(scene));
   bool kept = false;
   if (sampled && sampled->error_bar < tolerance) try {

@@ -16,8 +16,8 @@
 
 namespace crosscheck {
 
-/// Thrown if no trial meets the tolerance, or no reference solution can prove that one does. what(): the reason in one
-/// line.
+/// Thrown if no trial meets the tolerance, or if no reference solution is accurate enough to check the trials. what():
+/// the reason in one line.
 struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,7 +31,7 @@ struct Trial {
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, largest stable step by theory; empty if theory gives none
-  bool accidental = false;      // within the tolerance, but a shorter step of the same method and model is not
+  bool accidental = false;      // within the tolerance, although a shorter step of the same method and model is not
   bool meets = false;           // error + error bar of the truth are within the tolerance, and the run completed
   double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }
 };
@@ -48,7 +48,7 @@ struct Advice {
   size_t chosen = 0;                   // index of a trial
   std::vector<size_t> tied = {};       // other methods that meet the tolerance at the same cost, but less accurately
   std::optional<size_t> second = {};   // index of the cheapest other method that meets the tolerance
-  std::optional<size_t> of_full = {};  // index of the choice for the full scene, if a smaller model is cheaper
+  std::optional<size_t> of_full = {};  // index of the best trial of the full scene, if a smaller model is cheaper
   StepBound bound = StepBound::none;   // reason why the step is not longer
   bool between_samples = false;        // true if the error between samples exceeded the tolerance
   std::vector<std::string> left_out = {};
@@ -59,10 +59,10 @@ struct Advice {
 };
 
 /// Searches the full scene, and the smallest model whose own error is at most half the tolerance (StepSearch). Chooses
-/// with recommend(), as the report does for 1 % of the motion. The search uses the errors at the samples. The chosen
-/// run is then repeated, and its error observed after every step (dense_truth.h); if that exceeds the tolerance, the
-/// search is repeated with errors observed in this way. Throws CannotGuarantee if no truth is known, its error bar
-/// exceeds a third of the tolerance, the tolerance exceeds the scene's motion, or no method meets the tolerance.
+/// with recommend(), as the report does. The search uses the errors at the samples. The chosen run is repeated, and its
+/// error observed after every step (dense_truth.h). If that error exceeds the tolerance, the search is repeated with
+/// errors observed after every step. Throws CannotGuarantee if no truth is known, its error bar exceeds a third of the
+/// tolerance, the tolerance exceeds the scene's motion, or no method meets the tolerance.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 }  // namespace crosscheck

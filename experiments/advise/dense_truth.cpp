@@ -14,7 +14,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double samples_per_period = 8;
-constexpr double most_numbers = 6e7;  // samples times coordinates: both solutions of a converged truth then take 2 GB
+constexpr double most_numbers = 6e7;  // samples times coordinates; the two solutions of a truth of this size take 2 GB
 
 double fastest_gust(const WindSignal& wind_signal) {
   double omega = 0;
@@ -24,7 +24,7 @@ double fastest_gust(const WindSignal& wind_signal) {
   return omega;
 }
 
-/// Spacing of samples, s. The scene's own step if nothing vibrates.
+/// Initial spacing of the dense samples, s. If nothing vibrates: the scene's step or its sampling interval.
 double first_spacing(const Scene& scene) {
   const double interval = scene.duration / scene.samples, omega = fastest_motion(scene);
   const bool resolved_by_step = scene.model.first_order() || scene.model.find<Constraints>();
@@ -32,7 +32,7 @@ double first_spacing(const Scene& scene) {
   return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Dense samples with this spacing per sample of the scene. Throws CannotGuarantee if they do not fit in memory.
+/// Number of dense samples per sample of the scene. Throws CannotGuarantee if they do not fit in memory.
 int samples_at(const Scene& scene, double spacing) {
   const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
@@ -75,7 +75,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     const double lost = interpolation_error();
     bar_ += lost;
     if (lost <= tolerance / 30) break;
-    // with contact the error falls as the square of the spacing where forces jump, otherwise as its fourth power
+    // the error falls as the square of the spacing where forces jump at a contact, and as its fourth power elsewhere
     if (has_contact(scene.model))
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // accurate enough for advice
@@ -84,7 +84,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
           fmt::format("between samples the reference solution is known to {:.2g} m only, but {:.2g} m is requested",
                       bar_, tolerance));
   }
-  // between two samples the phase advances by up to 0.79, an eighth of a turn; within the time resolution, by 1/16
+  // the fastest motion turns by at most 0.79 rad (1/8 turn) between samples, and by 1/16 rad in the time resolution
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }
@@ -148,8 +148,8 @@ bool DenseTruth::runs_in(double t, const Vec3& x, double t_end, const Vec3& end)
   return clearance_from(surfaces, t, x) > 1e-9 * dense_.size() && clearance_from(surfaces, t_end, end) < 0;
 }
 
-/// Interpolation error, m. Doubling the spacing multiplies the error of a smooth path by 16; a factor of 8 is assumed.
-/// With contact, forces can jump anywhere between two samples, and the midpoint may show only half of the error.
+/// Interpolation error, m, estimated at twice the spacing. There, the error of a smooth path is 16 times as large; 8 is
+/// assumed. With contact, forces can jump anywhere between two samples, and the midpoint may show only half the error.
 double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;

@@ -1,4 +1,4 @@
-// The reference solution of a scene at any time, and the error of a run, including the times between samples.
+// The reference solution of a scene at any time, and the error of a run at all times, not only at the samples.
 #pragma once
 
 #include <optional>
@@ -29,8 +29,8 @@ class DenseTruth {
   double until() const { return until_; }    // s
   double error_bar() const { return bar_; }  // m, error bar of the truth, including the interpolation error
   double motion() const { return motion_; }  // m, largest RMS distance from the start
-  /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. Observed at this interval,
-  /// an error shows its maximum to within 0.2 %.
+  /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. If an error is observed at
+  /// this interval, the largest observed value is within 0.2 % of the maximum.
   double time_resolution() const { return time_resolution_; }
   Points at(double t) const;  // m, 3 x n; t in s, up to until()
 
@@ -49,12 +49,12 @@ class DenseTruth {
 };
 
 /// The scene's own run. For an adaptive method, run.step becomes at most the time resolution of the truth: it is only
-/// the interval of observation, and does not affect the method's own steps. With contact it would limit them, so the
-/// run stays unchanged.
+/// the interval of observation, and does not affect the method's own steps. In scenes with contact, run.step would
+/// limit those steps, so the run stays unchanged.
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
-/// Keeps the largest RMS distance of a run from the truth. Skips steps that follow the previous one within the time
-/// resolution of the truth, but never samples.
+/// Keeps the largest RMS distance of a run from the truth. Skips a step if less than the truth's time resolution has
+/// passed since the last observed step, but never skips a sample.
 class MaxErrorObserver : public Observer {
  public:
   explicit MaxErrorObserver(const DenseTruth& path) : path_(path) {}

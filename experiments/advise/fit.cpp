@@ -105,7 +105,7 @@ class Fit {
       if (!kind)
         throw InputError(
             fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
-      // anisotropy depends on the ratio of the stiffnesses of spring families, so that each family needs its own value
+      // anisotropy depends on the ratio of the stiffnesses of spring families, so each family needs a value of its own
       const std::string family = path.substr(path.rfind('.') + 1),
                         name_of_value = file_.has("wish.anisotropy") && kind->ending.starts_with("stiffness.")
                                             ? fmt::format("{} stiffness", family)
@@ -173,9 +173,9 @@ class Fit {
   }
   Scene scene_at(const Eigen::VectorXd& p) const { return parse_scene(file_at(p).text(), name_); }
 
-  /// Sets the unit of each kind's range. The unit of time is that of the wish, the time of a fall over the scene's
-  /// size, or the duration. The unit of mass is the mean over the particles or, if masses are fitted, a known stiffness
-  /// times the unit of time squared.
+  /// Sets the unit of each kind's range. The unit of time is the first of these that exists: the wished time, the time
+  /// of a fall over the scene's size, the duration. The unit of mass is the mean over the particles or, if masses are
+  /// fitted, a known stiffness times the unit of time squared.
   void set_units(const Scene& scene) {
     const auto* gravity = scene.model.find<Gravity>();
     const auto* springs = scene.model.find<Springs>();
@@ -206,9 +206,9 @@ class Fit {
     return r;
   }
 
-  /// The best point of a grid with one value per decade, or one per two decades for several unknowns. A single unknown
-  /// is taken from the first decade in which the measure crosses the wish, because a very small and a very large drag
-  /// may give the same settling time.
+  /// The best point of a grid with one value per decade, or one per two decades for several unknowns. For a single
+  /// unknown, chooses the first decade in which the measure passes the wished value, because a very small and a very
+  /// large drag may give the same settling time.
   Eigen::VectorXd coarse() const {
     const double pace = std::log(size() == 1 ? 10. : 100.);
     std::optional<Eigen::VectorXd> best;

@@ -27,9 +27,9 @@ struct WishResult {
   bool kept() const { return std::abs(own - reached) <= tolerance * std::abs(reached); }
 };
 
-/// Measures the wishes in `scene`, converged in the step, and in `file`, the scene that will be run, with its own
-/// method. Halves the step of `file` until WishResult::kept holds or a shorter step no longer helps. Leaves out wishes
-/// that cannot be measured.
+/// Measures each wish twice: in `scene`, converged in the step; and in `file`, the scene that will be run, with the
+/// file's own method and step. Halves the step of `file` until WishResult::kept holds or a shorter step no longer
+/// helps. Leaves out wishes that cannot be measured.
 std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file);
 
 struct FitResult {

@@ -6,7 +6,7 @@
 namespace crosscheck {
 namespace {
 
-// fixed steps in units of 2 / omega: one just below the rule's limit, and shorter ones
+// settings of peers: tolerances, or steps in units of 2 / omega, of which the first is just below the method's limit
 Peer odeint_rk4() { return {"odeint/rk4", {1.35, 1, 0.5}}; }
 Peer odeint_dopri5() { return {"odeint/dopri5", {1e-4, 1e-6, 1e-7}}; }
 Peer arkode() { return {"sundials/arkode+order=4", {1e-3, 1e-5, 1e-7}}; }
@@ -16,8 +16,8 @@ Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
 Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
-/// Settings for engines with unknown properties: leapfrog's limit and three successive halvings of it, which cover the
-/// cost of large and of small errors; for adaptive methods, tolerances as for odeint.
+/// Settings for engines with unknown properties. For fixed steps, leapfrog's limit and three successive halvings of it,
+/// to measure the cost of both large and small errors; for adaptive methods, two of odeint's tolerances.
 Peer chosen(const std::string& name) {
   if (find_method(name).adaptive) return {name, {1e-4, 1e-6}};
   return {name, {1, 0.5, 0.25, 0.125}};
@@ -45,8 +45,8 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // particles a side: too few for a second thread, just enough for one, the most that the caches of
-                   // two cores hold, and more than that
+                   // particles a side: too few for a second thread; just enough for two threads; the largest cloth that
+                   // fits into the caches of two cores; and a larger one
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},

@@ -9,9 +9,9 @@
 
 namespace crosscheck {
 
-/// Solves (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) for the free particles, with K the clamped tangent
-/// at x + h v; then x' = x + h v + u. Supports springs, gravity, uniform drag and fixed pins. The sparsity pattern of K
-/// and its fill-reducing order (approximate minimum degree) are computed once.
+/// Solves (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) for the free particles, where K is the clamped
+/// tangent at x + h v. The new positions are x + h v + u. Supports springs, gravity, uniform drag and fixed pins. The
+/// sparsity pattern of K and its fill-reducing order (approximate minimum degree) are computed once.
 class FactorisedStep {
  public:
   /// Throws std::invalid_argument if the drag rate differs among particles.
@@ -21,7 +21,7 @@ class FactorisedStep {
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// Positions in the array of stored entries (lower triangle) of the 3 x 3 block of two particles; -1 if not stored.
+  /// For each entry of the 3 x 3 block of two particles: its index in the stored (lower) triangle; -1 if not stored.
   struct Places {
     int number[3][3];
   };

@@ -19,7 +19,7 @@ struct BenchRecord {
   std::vector<std::string> notes = {};  // omissions and their reasons
 };
 
-/// Sets both times and their ratio, from the seconds of each round multiplied by the respective factor.
+/// Sets both times and their ratio. `peer`, `mysim`: seconds of each round, to be multiplied by the respective factor.
 void set_times(BenchRow& row, const std::vector<double>& peer, const std::vector<double>& mysim, double peer_factor = 1,
                double factor = 1);
 
@@ -31,8 +31,8 @@ constexpr auto springs = "springs", springs_of_scene = "springs of a shipped sce
 constexpr auto naive_loop_name = "naive loop";
 
 /// CPU time per spring and step on a cloth with `side` particles a side, for each kernel and for the naive loop
-/// (Eigen::Vector3d, spring by spring). The fused step is a whole step; all others compute forces only. `share` is the
-/// rate of flop_per_spring relative to the peak of the same instruction set.
+/// (Eigen::Vector3d, spring by spring). The fused step is a whole step; all others compute forces only. `share`: the
+/// achieved flop/s (flop_per_spring for each spring) relative to the peak of the same instruction set.
 void measure_kernels(int side, const MicrobenchmarkOptions& options, BenchRecord& record);
 
 /// Time of one evaluation of the spring forces on each scene with springs: naive loop, general kernel and, for regular
@@ -55,8 +55,8 @@ struct EqualErrorOptions {
 int work_of(const EqualErrorOptions& options);
 
 /// Compares each run of each peer with the cheapest run of mysim whose error is smaller by at least two error bars of
-/// the truth, so that it is certainly as accurate. The truth is suzuki4 at a sixteenth of its largest step. Sets no
-/// ratio if the peer's error is within two error bars.
+/// the truth, so that mysim's run is certainly at least as accurate. The truth is suzuki4 at a sixteenth of its largest
+/// step. Sets no ratio if the peer's error is within two error bars.
 void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record);
 
 struct SameStepOptions {
@@ -84,8 +84,8 @@ struct ThreadsOptions {
 };
 /// Wall time of a leapfrog step with one thread, and with +threads=2, which uses only one thread on small cloths.
 /// `share` is the fraction of the cores' time that the threads got. Waiting threads spin, so the rest of the time went
-/// to other processes, and the ratio underestimates the machine. Adds a note if the share is below 95 %, or there is
-/// only one core. Call it before the process is bound to a core.
+/// to other processes, and the ratio is lower than on an idle machine. Adds a note if the share is below 95 %, or there
+/// is only one core. Call it before the process is bound to a core.
 void measure_threads(const ThreadsOptions& options, BenchRecord& record);
 
 }  // namespace crosscheck

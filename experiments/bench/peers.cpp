@@ -128,7 +128,7 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Enters the time and ratio of mysim's cheapest run with an error of at most `bound` (m). Returns false if none is.
+/// Enters the time and ratio of mysim's cheapest run with an error of at most `bound` (m). Returns false if no run has.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {

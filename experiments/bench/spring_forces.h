@@ -13,7 +13,7 @@ namespace crosscheck {
 using BenchmarkFunction = std::function<void()>;
 
 BenchmarkFunction naive_loop(const Scene& scene);
-/// The term's own implementation (mysim/terms/springs.h).
+/// The implementation of the springs term itself (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);
 /// The engine's kernel for any spring graph. The machine must support the instruction set.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);

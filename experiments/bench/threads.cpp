@@ -13,8 +13,8 @@ namespace crosscheck {
 namespace {
 
 constexpr auto rule = "mysim/leapfrog";
-/// Below this share of their cores' time, two threads lose more to other processes than the 5 % by which a speedup of
-/// 1.9 misses 2.
+/// If two threads get less than this share of their cores' time, other processes take more than 5 % of it, which is the
+/// difference between speedups of 1.9 and 2.
 constexpr double nearly_all = 0.95;
 
 double cpu_of_all_threads() {

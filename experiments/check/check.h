@@ -15,7 +15,7 @@ namespace crosscheck {
 struct KnownBreak {
   std::string method, relation, scene;  // globs; an empty `scene` matches all scenes
   std::string reason;                   // one sentence with the measured cause
-  std::optional<double> times;          // largest expected ratio to the tolerance; nullopt: any ratio
+  std::optional<double> times;          // largest expected ratio of the violation to the tolerance; nullopt: any
   std::string rule = {};                // glob on rule_of(method), in place of `method`
 };
 std::filesystem::path shipped_known_breaks();
@@ -28,7 +28,7 @@ struct Answer {
   const Relation* relation;
   RelationMark mark = RelationMark::holds;
   RelationResult finding;  // valid if the relation is applicable
-  std::string reason;      // reason why it is not applicable, a run failed, or the violation is known
+  std::string reason;      // reason why the relation does not apply, a run failed, or the violation is known
   std::string scene_hash;
   Verdict failure = Verdict::ok;
 

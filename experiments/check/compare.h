@@ -28,7 +28,7 @@ const Trajectory& halved(Subject& subject, const Scene& scene, int times);
 /// Rounding error (m) up to each sample of the run with its step halved the given number of times.
 std::vector<double> noise_at(Subject& subject, Scene scene, int times);
 
-/// True for methods that follow run.tolerance, and for external programs that chose their own steps when observed.
+/// True for methods that follow run.tolerance, and for external programs that were found to choose their own steps.
 bool chooses_steps(const Method& method);
 
 /// Order of the method's rule; 1 if unknown.

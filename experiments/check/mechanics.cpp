@@ -45,7 +45,7 @@ Rest at_rest(Subject& subject, const Scene& scene) {
   if (rest.unsettled > 1e-3 * scene.size())
     throw CannotBeAsked(
         fmt::format("it has not come to rest: in the last quarter it moved by {:.2g} m", rest.unsettled));
-  // damping removes the velocities that come from rounding
+  // damping removes the velocities that rounding causes, so that only the rounding of positions accumulates
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   rest.unsettled += 10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, run.path);
   if (chooses_steps(subject.method())) rest.unsettled += subject.noise(scene).start;
@@ -69,14 +69,14 @@ RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   RelationResult relative = over_time("motion of a particle relative to the others", "m", path, noise, [&](int i) {
     return largest_column(((path.x[i] - start).colwise() - fallen(i)).eval());
   });
-  // a rule of order two falls by exactly g t^2 / 2, a rule of order one by g t (t + h) / 2 or g t (t - h) / 2; any
-  // other rule lies in between
+  // with a rule of order two, a particle falls by exactly g t^2 / 2; with a rule of order one, by g t (t + h) / 2 or g
+  // t (t - h) / 2; with any other rule, by a distance in between
   const Method& method = subject.method();
   const bool known = stepper_of(method) != nullptr;
   const double h = chooses_steps(method) || (known && order_of(method) > 1) ? 0 : run.outcome.step;
   // the fall is g t^2 / 2 + g h (a t + b h) / 2. A known rule of order one has a = 1 or -1, and b = 0. For other rules
-  // a and b, both between -1 and 1, are taken from the first and last sample, so that their rounding errors add to
-  // those of the other samples
+  // a and b, both between -1 and 1, are taken from the first and last sample, so that the rounding errors of these two
+  // samples add to those of the others
   const int last = path.frames() - 1;
   const auto late = [&](int i) {  // in units of g h / 2
     const Vec3 off = fallen(i) - v * path.t[i] - g * (path.t[i] * path.t[i] / 2);
@@ -133,8 +133,8 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // Rounding errors dx and dv change the angular momentum by m (dx cross v + x cross dv), which the largest distance
-  // and speed bound. `times`: number of halvings of the step
+  // Rounding errors dx and dv change the angular momentum by m (dx cross v + x cross dv). The bound uses the largest
+  // distance and the largest speed. `times`: number of halvings of the step
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);
@@ -171,7 +171,7 @@ namespace {
 /// Drift of the energy in a run, and the oscillation and rounding that can hide a drift, J.
 struct Drift {
   double change, hidden;
-  std::vector<double> changes, times;  // J, mean energy of each tenth of the run minus that of the first; s
+  std::vector<double> changes, times;  // mean energy of each tenth of the run minus that of the first, J; s
 };
 
 Drift drift_of(Subject& subject, const Scene& scene, const Run& settings) {
@@ -215,8 +215,8 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   if (found.holds()) return found;
   if (!method.adaptive && chooses_steps(method))
     throw CannotBeAsked("its energy drifts, and as it chooses its own steps, the order of the drift is unknown");
-  // rules that are not symplectic gain or lose energy by an error of at least their order; the allowance of half a
-  // power covers terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
+  // in rules that are not symplectic, the error of the energy falls with at least the rule's order; the allowance of
+  // half a power covers terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
   const double part = method.adaptive ? 0.5 : std::exp2(0.5 - order_of(method));
   const auto finer = [&](int times) {
     Run fine = run;

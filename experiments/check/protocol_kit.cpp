@@ -50,7 +50,7 @@ namespace fs = std::filesystem;
 // Together, these scenes contain every ingredient of the protocol except the wind on triangles.
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
-// s. A step of these scenes takes microseconds, and an interpreter starts in less than a second.
+// Time limit of a call, s. A step of these scenes takes microseconds, and an interpreter starts in less than a second.
 constexpr double call_limit = 30;
 
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
@@ -229,8 +229,8 @@ class Kit {
     add(scene.name, "sample times", true, true, "at run.times", scene_file);
   }
 
-  /// A first-order rule is off by g h / 2, and so are velocities that are half a step late or early. Twice this error
-  /// plus g h / 2 is allowed.
+  /// A first-order rule is off by g h / 2, and so are velocities that are half a step late or early. The tolerance is
+  /// the sum of both errors and another g h / 2.
   void try_speeds(const Scene& scene, const Run& run, const std::vector<Points>& speeds) {
     const TimeGrid grid = time_grid(run);
     const Vec3 g = scene.model.find<Gravity>()->acceleration;

@@ -51,27 +51,27 @@ class Subject {
   double unit_roundoff() const;
 
   /// Largest distance that rounding may cause between two runs up to each sample, m (and m/s). Every step rounds
-  /// positions to a unit round-off u of the lengths L that occur, in about ten operations, and the roundings of n steps
-  /// add up like a random walk: 10 u L sqrt(n). For an adaptive rule, this error is replaced by its tolerance per step.
-  /// The free particles are perturbed by that distance in two seeded directions, with both signs. The largest distance
-  /// of a particle from its unperturbed position includes the growth of errors, and the effect of solvers that stop
-  /// early. The result is three times that largest distance, so that other random directions stay below the bound: the
-  /// maxima over hundreds of coordinates vary by less.
+  /// positions in about ten operations, each to u L, with the unit round-off u and the lengths L that occur. The
+  /// roundings of n steps add up like a random walk: 10 u L sqrt(n). For an adaptive rule, this error is replaced by
+  /// its tolerance per step. The free particles are perturbed by that distance in two seeded directions, with both
+  /// signs. The largest distance of a particle from its unperturbed position includes the growth of errors, and the
+  /// effect of solvers that stop early. The result is three times that largest distance, so that other random
+  /// directions stay below the bound: the maxima over hundreds of coordinates vary by less.
   struct Noise {
     std::vector<double> x, v;  // v is empty if the engine reports no velocities
     double start = 0;          // m, size of the perturbation
   };
-  /// Infinite for scenes with contact from the sample at which the growth reaches a million: single positions are then
-  /// unpredictable (round_off_bound() in experiments/metrics.h), and a perturbation may miss the event that separates
-  /// two runs. `lengths` (m): the lengths that occur, if larger than in this run.
+  /// With contact, infinite from the first sample at which the perturbation has grown a millionfold. From there on,
+  /// positions of single particles are unpredictable (round_off_bound() in experiments/metrics.h), and a perturbation
+  /// may miss the event that separates two runs. `lengths` (m): the lengths that occur, if larger than in this run.
   Noise noise(const Scene& scene, double lengths = 0);
   /// The noise including the residual that a stepper of mysim leaves in its implicit equation, for comparisons with a
   /// formula or a run that has no residual or a different one. The solver stops at a fraction e of the largest force.
   /// Since inertia m v / h is one of the forces, the velocity of the lightest particle is off by up to e v m_max /
-  /// m_min in each step, however short. Alternatively, the solver stops at the rounding error of the spring forces, 8
-  /// eps L sum k. The sum of the stiffnesses at a particle is at most 3 m omega^2, so that the velocity is off by 24
-  /// eps omega^2 L h. Neither error changes its sign: after n steps the velocity error is n times as large, and
-  /// positions are off by that speed times the duration.
+  /// m_min in each step, no matter how short the step is. Alternatively, the solver stops at the rounding error of the
+  /// spring forces, 8 eps L sum k. The sum of the stiffnesses at a particle is at most 3 m omega^2, so that the
+  /// velocity is off by 24 eps omega^2 L h. Neither error changes its sign: after n steps the velocity error is n times
+  /// as large, and positions are off by that velocity times the duration.
   Noise noise_with_unsolved(const Scene& scene, double lengths = 0);
   /// The noise without growth, m. `projected`: positions are projected onto constraints, which discards the previous
   /// positions. The velocity is then off by u L / h in each step, which adds up to u L n sqrt(n). This holds for
@@ -80,10 +80,9 @@ class Subject {
   double rounding(double lengths, long steps, bool projected) const;
 
   /// Error of a position-based solver's iterations up to each sample, m; nullopt if the engine has no option n=. Such a
-  /// solver processes particles and links one after the other, so that another order of them gives another unconverged
-  /// result. The error of n iterations falls as 1 / (n + a). The first iteration removes at least half of the error,
-  /// which means a <= 1. Hence the error is at most 2 + 1 / n times the distance between the results of n and 2n
-  /// iterations.
+  /// solver processes particles and links one after the other, so that its unconverged result depends on their order.
+  /// The error of n iterations falls as 1 / (n + a). The first iteration removes at least half of the error, which
+  /// means a <= 1. Hence the error is at most 2 + 1 / n times the distance between the results of n and 2n iterations.
   std::optional<std::vector<double>> iteration_error(const Scene& scene);
   /// The engine with its number of iterations multiplied by `times`; nullopt if the engine has no option n=.
   std::optional<Method> with_iterations(int times) const;

@@ -19,7 +19,7 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 /// or triangles.
 std::optional<double> depth_of_triangles(const Scene& scene, double t, const Points& x);
 
-/// The partner of each particle under reflection in the planes through the ball's centre normal to x and to z.
+/// The partner of each particle under reflection in two planes through the ball's centre: normal to x, and normal to z.
 class MirrorSymmetry {
  public:
   /// Returns nullopt if the scene is not symmetric in both planes to 1e-12 of its size (positions, velocities,
@@ -54,7 +54,7 @@ Scene on_slope(double degrees, double friction, Ground ground);
 struct ConeResult {
   double distance;     // m, in 0.5 s
   double coulomb;      // m, by Coulomb's law: 0 within the friction cone, otherwise g (sin - mu cos) t^2 / 2
-  ContactState state;  // sticks: moves < 1 mm (plane: 50 um); slides: within a tenth plus 1 mm (50 um) of `coulomb`
+  ContactState state;  // sticks: moves < 1 mm (plane: 50 um); slides: `coulomb` to within a tenth plus 1 mm (50 um)
 };
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, Ground ground, double step,
                                Outcome& out);

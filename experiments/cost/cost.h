@@ -22,8 +22,8 @@ struct Kernel {
 /// Independent multiplications and additions in registers, as fused operations if mysim's kernels use these.
 Kernel multiply_add_kernel();
 
-/// a = b + s c over three arrays of `bytes` bytes in total, 24 per element: measures the bandwidth of memory of that
-/// size.
+/// a = b + s c over three arrays of `bytes` bytes in total, 24 per element. Measures the bandwidth of the memory (or
+/// cache) that holds arrays of this size.
 Kernel triad_kernel(double bytes);
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.

@@ -105,7 +105,7 @@ std::vector<Disagreement> table() {
         {"Bullet, explicit, flag cleared", "bullet/deformable-explicit"}},
        length,
        rest_effect,
-       // bounds: the initial compression of 0.1 m; twice h v, which is the largest difference of the two rules at 2 m/s
+       // bounds: the initial compression of 0.1 m; twice the largest difference of the two rules, which is h v at 2 m/s
        {{apart, 1, 0, 0.1}},
        {{within, 3, 0, 4e-3}}},
       {"wind-at-rest",
@@ -230,7 +230,7 @@ std::vector<Disagreement> table() {
         {"100 N/m, deformable, kLST 0.01", "bullet/deformable-explicit+kLST=0.01"}},
        sag,
        unused_effect,
-       // bounds: most of the 59 mm, and equality bit for bit; twice h v, which is 0.3 mm at 0.3 m/s
+       // bounds: most of the 59 mm, and 0 (equal bit for bit); twice h v (0.3 mm at 0.3 m/s), and 0
        {{apart, 0, 1, 40}, {within, 2, 3, 0}},
        {{within, 4, 0, 0.6}, {within, 5, 1, 0.6}, {within, 6, 4, 0}}},
       {"over-relaxation",

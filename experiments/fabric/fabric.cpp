@@ -67,8 +67,8 @@ double fitted_skip_one(StripNet net) {
     net.skip_one = std::exp(log_k);
     return std::log(drop_at_rest(net, guess) / wanted);
   };
-  // two links at an angle phi stretch a skip-one spring by d phi^2 / 4. In the initial guess, its energy is that of the
-  // bending term at half of the curvature at the clamp
+  // two links at an angle phi stretch a skip-one spring by d phi^2 / 4. In the initial guess, the spring has the energy
+  // that the bending term has at half of the curvature at the clamp
   const double curvature = net.gamma / 4 / continuum_of(net).length;
   double a = std::log(8 * continuum_of(net).rigidity / (curvature * curvature * std::pow(d, 4))), b = a + 0.5;
   double at_a = missed(a), at_b = missed(b);

@@ -61,9 +61,9 @@ UndampedMode mode_of_chain() {
 /// Drag rate with the same damping as the method, over ten periods. Averages the logarithm of the energy over each
 /// period, because the energy of symplectic rules oscillates twice per period. The period of the rule differs slightly
 /// from that of the mode, which leaves a remainder of the oscillation; averages that begin a quarter of a period later
-/// have a remainder of opposite sign. The rate is the mean of both. The error bar is the largest of half their
-/// difference, the difference of the run's two halves (whose drag rates should agree), and rounding, which changes the
-/// energy by a relative 1e-14 (1e-5 in single precision).
+/// have a remainder of opposite sign. The rate is the mean of both. The error bar is the largest of three values: half
+/// their difference; the difference between the rates of the run's two halves, which should agree; and the effect of
+/// rounding, which changes the energy by a relative 1e-14 (1e-5 in single precision).
 Answer damping_of(const Method& method, const UndampedMode& mode) {
   constexpr int periods = 10, samples = 24, quarter = samples / 4;
   Answer answer{.method = method.name, .question = mode.question, .unit = "1/s"};
