@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// The reference solution of the full scene, with a method and a step whose error is at most a fifth of the tolerance.
+/// The reference solution of the full scene, and a method and step with an error of at most a fifth of the tolerance.
 struct ReferenceSolution {
   Method method;
   Run run;       // up to the end of the window
@@ -34,8 +34,8 @@ struct AblatedModel {
   }
 };
 
-/// The full model, every single removal, and the cumulative ablation. Each stage of the latter removes the ingredient
-/// that adds the least error, until the error exceeds `most` (m) or nothing is left to remove.
+/// The full model, every single removal, and the cumulative ablation. Each stage of the cumulative ablation removes the
+/// ingredient that adds the least error, until the error exceeds `most` (m) or nothing is left to remove.
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& reference, double most);
 
 /// The model with the fewest ingredients whose error is within the tolerance (m).
@@ -45,9 +45,9 @@ const AblatedModel& least_model(const std::vector<AblatedModel>& models, double 
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& reference, const Trajectory& truth,
                                   Outcome& outcome);
 
-/// The scene with a different start. Every free particle gets a smooth velocity of RMS `speed` (m/s) that vanishes at
-/// the pins: a wave as long as the scene, whose direction and phase depend on `seed`. In first-order scenes, positions
-/// change instead, by a tenth of their distance from the origin.
+/// The scene with a different start. The free particles get a velocity field of RMS `speed` (m/s): a wave as long as
+/// the scene, which vanishes at the pins, and whose direction and phase depend on `seed`. In first-order scenes,
+/// positions change instead, by a tenth of their distance from the origin.
 Scene unseen_start(const Scene& scene, double speed, unsigned seed);
 
 }  // namespace crosscheck

@@ -22,12 +22,12 @@ struct MysimMethod {
   double first, ratio;
 };
 constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4), and 1/2 for a slow rule that is never the best one
-// the most efficient first: a later method stops when an earlier one was more accurate at the same cost
+// the most efficient first: a later method stops when an earlier one has been more accurate at the same cost
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
                                        {"mysim/rk4", 1.35, coarse}};
-constexpr double longest = 60;           // s; leaves out external programs that would take longer
+constexpr double longest = 60;           // s; external programs that would take longer are left out
 constexpr double shortest = 0.05;        // a method's shortest step divided by its first one
 constexpr double truth_step = 1.36 / 8;  // in units of 2 / omega: an eighth of suzuki4's largest step; later halved
 

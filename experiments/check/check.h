@@ -47,8 +47,8 @@ using AboutToAsk = std::function<void(const std::string&)>;
 
 using OnAnswer = std::function<void(const Answer&)>;
 
-/// Checks every relation of a method, or the relation `only`, on the given scenes to which it applies, or on its
-/// smallest scenes if none are given. If every run of the method crashed, its relations count as not applicable.
+/// Checks every relation of a method (or just the relation `only`) on the given scenes to which it applies, or on its
+/// own smallest scenes if none are given. If every run of the method crashed, all relations count as not applicable.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known, const AboutToAsk& begin = {},
                                const OnAnswer& on_answer = {}, const Relation* only = nullptr);

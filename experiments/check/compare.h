@@ -8,10 +8,10 @@
 
 namespace crosscheck {
 
-/// Compares, at each sample, the largest distance of a particle between the two runs with the bound (m) of that sample,
-/// and returns the result of the sample where their ratio is largest. Ignores the first sample whose bound exceeds a
-/// hundredth of `lengths` (m) and all later ones, because the motion is unpredictable from there. Throws CannotBeAsked
-/// if that happens at the first sample.
+/// At each sample, compares the largest distance of a particle between the two runs with the bound (m) of that sample.
+/// Returns the result of the sample with the largest ratio. Ignores the first sample whose bound exceeds a hundredth of
+/// `lengths` (m) and all later ones, because the motion is unpredictable from there. Throws CannotBeAsked if that
+/// happens at the first sample.
 RelationResult farthest(std::string what, const Trajectory& a, const Trajectory& b, const std::vector<double>& bound,
                         double lengths);
 

@@ -290,9 +290,9 @@ class Kit {
     if (!scene.model.first_order()) collect_rows(scene, out);
   }
 
-  /// Checks that each ingredient that the program did not refuse has an effect. The inactive ingredients are the set
-  /// without which mysim's path is nearest to the program's. A set of several ingredients counts only if it halves the
-  /// distance of every smaller set, because the program may differ much from mysim in other respects.
+  /// Checks that each ingredient that the program did not refuse has an effect. The inactive ingredients are the set of
+  /// ingredients without which mysim's path is nearest to the program's. A set of several ingredients counts only if it
+  /// halves the distance of every smaller set, because the program may differ much from mysim in other respects.
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
     const std::vector<Ingredient> all = ingredients_of(scene);
     const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };

@@ -23,7 +23,7 @@ std::string with_springs(const Scene& s) {
 }
 std::string movable(const Scene& s) {
   if (s.model.first_order()) return "its field depends on place and direction";
-  // rounding decides the last bounces before rest, and perturbations of the start do not reveal this
+  // rounding decides the last bounces before rest; perturbations of the start do not reveal this, so no bound is known
   for (const Surface& surface : surfaces_of(s.model))
     if (surface.restitution > 0) return "rounding decides the last of endless bounces";
   return "";

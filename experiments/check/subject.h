@@ -74,9 +74,9 @@ class Subject {
   /// as large, and positions are off by that velocity times the duration.
   Noise noise_with_unsolved(const Scene& scene, double lengths = 0);
   /// The noise without growth, m. `projected`: positions are projected onto constraints, which discards the previous
-  /// positions. The velocity is then off by u L / h in each step, which adds up to u L n sqrt(n). This holds for
-  /// position-based rules and for contacts: rounding decides on which side of a surface a resting particle lies, and
-  /// perturbations of the start do not reveal this.
+  /// positions. In that case, the velocity is off by u L / h in each step, which adds up to u L n sqrt(n). This holds
+  /// for position-based rules and for contacts: rounding decides on which side of a surface a resting particle lies,
+  /// and perturbations of the start do not reveal this.
   double rounding(double lengths, long steps, bool projected) const;
 
   /// Error of a position-based solver's iterations up to each sample, m; nullopt if the engine has no option n=. Such a

@@ -14,9 +14,9 @@ namespace crosscheck {
 
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Depth (m) of the deepest point of the scene's triangles in a contact surface at time t (s); negative if all are
-/// outside. Triangles can penetrate a ball even if their corners lie on it. Returns nullopt for scenes without spheres
-/// or triangles.
+/// Depth (m) to which the scene's triangles penetrate a contact surface at time t (s); negative if all are outside.
+/// Triangles can penetrate a ball even if their corners lie on it. Returns nullopt for scenes without spheres or
+/// triangles.
 std::optional<double> depth_of_triangles(const Scene& scene, double t, const Points& x);
 
 /// The partner of each particle under reflection in two planes through the ball's centre: normal to x, and normal to z.

@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-/// Direction of the impulses minus the ball's normal (rad), at a position `angle` from the top, extrapolated to step 0.
+/// Angles (rad) from the ball's normal to the impulse, at a position `angle` from the top, extrapolated to step 0.
 /// in_plane: in the plane of gravity (positive: as if the position were farther down); sideways: across this plane.
 struct DirectionError {
   double angle, in_plane, sideways;

@@ -14,10 +14,10 @@ struct UpstreamText {
   std::string file, text;  // Markdown
 };
 
-/// Returns upstream-gallery.md, which contains each disagreement with its threads, its state and the evidence, and the
-/// threads without a scene; and upstream-NAME.md, a report for each reproduced disagreement that has a written report.
-/// Empty if there are no rows. `engines`: the versions that were run, as in the tables; rows about an external program
-/// name the program.
+/// Returns upstream-gallery.md and reports. The gallery contains each disagreement with its threads, its state and the
+/// evidence, and then the threads without a scene. The report upstream-NAME.md is about a reproduced disagreement for
+/// which a report was written. Returns nothing if there are no rows. `engines`: the versions that were run, as in the
+/// tables; rows about an external program name the program.
 std::vector<UpstreamText> upstream_texts(const TableSet& rows, const std::string& engines);
 
 }  // namespace crosscheck

@@ -57,7 +57,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
 
 namespace {
 
-/// |R(i y)| of rules that treat x and v alike in a step; nullopt for other rules.
+/// |R(i y)|, with the stability function R, for rules that treat x and v alike in a step; nullopt for other rules.
 std::optional<double> gain(const std::string& rule, double y) {
   const std::complex<double> z(0, y);
   if (rule == "explicit-euler") return std::abs(1. + z);

@@ -8,9 +8,9 @@
 //   x_rr = (x_{i-1} - 2 x_i + x_{i+1}) / d^2                   on the area r d D of a particle,
 //   (x_t / r)_r = ((x_11 - x_10) / r_{i+1} - (x_01 - x_00) / r_i) / (2 sin(D/2) d)   on the area of a cell, and
 //   x_r / r + x_tt / r^2 = (x_{i+1} - x_{i-1}) / (2 d r) + (x_{j-1} - 2 x_j + x_{j+1}) / (2 (1 - cos D) r^2).
-// The sines and cosines make these vanish if x is linear in the positions on the flat sheet, so that the flat sheet is
-// free of strain to the last digit. On the rim, whose particles have half the area, x_r is the difference from the next
-// inner ring, because x_rr is small there: no moment acts on a free edge.
+// The sines and cosines make these expressions vanish if x is linear in the positions on the flat sheet, so that the
+// flat sheet is free of strain to the last digit. On the rim, whose particles have half the area, x_r is the difference
+// from the next inner ring, because x_rr is small there: no moment acts on a free edge.
 //
 // In its plane the net is isotropic, with moduli C11 and C12 = C66 = C11 / 3. For a cell with sides p and q along
 // spokes and rings and diagonals l = (p^2 + q^2)^(1/2), the following springs contribute equally to every cell

@@ -50,8 +50,8 @@ CaseRun run_case(const Case& test_case);
 /// are unpredictable.
 Run run_over_window(const Scene& scene);
 
-/// The quantities of a run, in the fixed order of the table in quantities.cpp. A failed run has its verdict, the time
-/// of failure, and its motion in the first half of the time until then.
+/// The quantities of a run, in the fixed order of the table in quantities.cpp. For a failed run: the verdict, the time
+/// of failure, and the motion in the first half of the time before the failure.
 std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_run);
 
 /// Names of two quantities at time t (s): the offset of the particles from their start, and their projected positions.

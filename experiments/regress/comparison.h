@@ -38,7 +38,7 @@ struct Comparison {
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
-/// The failed row with the largest rank for each case and status, so that a thousand rows fit on a screen.
+/// Only the failed row with the largest rank for each case and status, so that a thousand rows fit on a screen.
 std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows);
 
 /// A method whose quantities are all new in some scenes. Either it was added after the baselines of these scenes were

@@ -69,7 +69,7 @@ void peak_stretch(const Observation& seen, Quantities& out) {
 void shape(const Observation& seen, Quantities& out) {
   const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
-  // the two directions in which the start is widest; if widths are equal, the first ones
+  // axes in descending order of the start's width; if widths are equal, x is before y, and y before z
   const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
@@ -109,7 +109,7 @@ void period(const Observation& seen, Quantities& out) {
     if ((before > 0) == (after > 0)) continue;
     turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
   }
-  // if there are more turning points, they are small ripples, which have no period
+  // more than 40 turning points are those of small ripples, which have no period
   if (turns.size() < 3 || turns.size() > 40) return;
   out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
 }
@@ -145,8 +145,8 @@ void rebound_height(const Observation& seen, Quantities& out) {
 }
 
 /// Largest RMS distance from the same run at half the step, m, for scenes without a closed form. It estimates the error
-/// up to a factor that depends on the order. Takes a run twice as long. Skipped for scenes from which an ingredient was
-/// removed.
+/// up to a factor that depends on the order. Needs a run with twice as many steps. Skipped for scenes from which an
+/// ingredient was removed.
 void change_at_half_the_step(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Method& method = seen.test_case.method;
@@ -199,7 +199,7 @@ void largest_stable_step(const Observation& seen, Quantities& out) {
 }
 
 /// Scale of the numbers that are subtracted: positions, energies, or the ratio of a spring's length to its rest length.
-/// The scale of energies is at least that of a motion through the scene in its window, in case nothing moves.
+/// The scale of energies is at least that of a motion across the whole scene within its window, in case nothing moves.
 double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& case_run) {
   double most = unit == "1" ? 1 : 0;
   if (unit == "m")
@@ -230,7 +230,7 @@ void error_against_truth(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar;
 }
 
-/// Rounded to six digits, because single precision rounds its input.
+/// Settings read back from the engine, to six digits, because single precision rounds them.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
   const Readback& readback = *seen.case_run.outcome.readback;

@@ -145,8 +145,8 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// The other method's quantities as expected values. Ignores quantities that only one of the methods has; both always
-/// have a verdict.
+/// The other method's quantities as expected values. Ignores quantities that only one of the methods has. The verdict
+/// is always compared, because both methods have one.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;

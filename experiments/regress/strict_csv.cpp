@@ -89,7 +89,7 @@ void StrictCsvReader::rows(const std::string& header, const std::function<void(c
   if (line_ != header) throw InputError(fmt::format("expected the header {}", header));
   long count = 0;
   for (++number_; std::getline(in_, line_); ++number_, ++count) add(line_);
-  // otherwise, the quantities missing in a truncated file would pass as new ones
+  // without this check, the quantities missing in a truncated file would pass as new ones
   if (count == 0 || static_cast<double>(count) != expected)
     throw InputError(fmt::format("expected {} rows, got {}", expected, count));
 }

@@ -28,8 +28,8 @@ double rounded_up(double tolerance) {
   return std::ceil(tolerance / unit) * unit;
 }
 
-/// Gives all free particles a speed along one axis that displaces them by `size` within the run. Equal rounding errors
-/// add up in the mean offset, where independent directions would average out.
+/// Gives all free particles a speed along one axis that displaces them by `size` within the run. Like rounding errors
+/// that all particles share, it shifts the mean; displacements in independent directions would average out.
 Scene pushed(Scene scene, double size, int axis) {
   for (int i = 0; i < scene.start.v.cols(); ++i)
     if (!scene.model.particles.pinned[i]) scene.start.v(axis, i) += size / run_over_window(scene).duration;
@@ -53,13 +53,13 @@ double left_by_one_step(const Case& test_case, const CaseRun& case_run, double l
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// Error of a quantity that arises in the steps: from solvers, and from sums over steps. With a damping rule, a change
-/// of the start does not reveal this error: by the end the effect of the change has vanished, but the residual of the
-/// last steps has not.
+/// Error of a quantity, caused by the steps themselves: by solvers, and by sums over steps. With a damping rule, a
+/// change of the start does not reveal this error: by the end the effect of the change has vanished, but the residual
+/// of the last steps has not.
 double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = case_run.outcome;
   // this quantity sums impulses times distances over the steps; for a particle at rest on a sphere, all terms are
-  // rounded in the same way
+  // rounded in the same direction, so that the errors add up
   if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;
@@ -99,7 +99,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
   const double less = 10 * rounding.size;
   const std::vector<Quantity> moved_less = less < little / 2 ? moved_by(less, 1) : std::vector<Quantity>{};
-  std::map<std::string, double> scale;  // by unit, largest value: bounds quantities that are zero except for rounding
+  std::map<std::string, double> scale;  // largest value by unit; bounds quantities that are zero except for rounding
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
   const auto change_of = [&](const Quantity& q) {
@@ -116,7 +116,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     const Quantity* other = find(moved_less, q.name);
     return other && !q.is_word() && !q.count && grown(q) && std::abs(other->value - q.value) > 0.1 * change_of(q);
   };
-  // projections are not counted, because they change with the direction in which a start at rest is moved
+  // projections are not counted: if a scene starts at rest, they depend on the direction of the small displacement
   const bool chance = std::count_if(quantities.begin(), quantities.end(), [&](const Quantity& q) {
                         return !q.name.starts_with("places along") && saturated(q);
                       }) >= 3;
@@ -127,8 +127,8 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     }
     const double change = change_of(q);
     if (q.name == time_of_failure) {
-      // the change is not scaled: the growth may have begun as a rounding error, so that the time depends on the
-      // error's logarithm
+      // the change is not scaled: the growth that led to the failure may have begun as a rounding error, so that the
+      // time of failure depends on the logarithm of this error
       all.push_back({q, rounded_up(change + q.error_bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.error_bar)});
       continue;

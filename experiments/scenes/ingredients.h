@@ -15,14 +15,14 @@ struct Ingredient {
   void (*remove)(Model&);
 };
 
-/// Lists terms, families of springs, pins, motions, gusts and friction. If all springs belong to one family, they are
-/// listed once.
+/// Lists terms, families of springs, pins, motions, gusts and friction. If all springs belong to one family, lists them
+/// as one ingredient.
 std::vector<Ingredient> ingredients_of(const Scene& scene);
 
 /// Removes an ingredient. Recomputes the hash, but keeps the text.
 Scene without(const Scene& scene, const Ingredient& ingredient);
 
-/// Number of springs and hard distances, at least 1: the unit of cost of a force evaluation.
+/// Number of springs and hard distances, at least 1. The cost of a force evaluation is proportional to it.
 long springs_of(const Model& model);
 
 }  // namespace crosscheck

@@ -19,7 +19,7 @@ std::vector<std::string> quick_scenes();
 
 /// Finds a shipped scene or a known disagreement by name, or any TOML file by path. Throws InputError with a suggestion
 /// if there is no such scene. Refuses a file whose method is a program, unless the command line names `methods`
-/// ("A,B,..."); the first of these methods then replaces that of the file.
+/// ("A,B,..."); the first of these methods replaces that of the file.
 Scene load_scene(const std::string& name_or_path, const std::string& methods = "");
 
 std::filesystem::path file_of_disagreement(const std::string& name);

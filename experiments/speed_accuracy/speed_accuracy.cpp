@@ -77,7 +77,7 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   const bool touches = has_contact(scene.model);  // contact may cost more than the fall before the contact
   if (method.adaptive && (touches || whole)) return {run};
   const double enough = full ? 0.02 : 0.006;  // s: equals thousands of clock ticks
-  // s. Cheaper runs are timed whole; they are the majority of a quick report's runs. Timing the others whole would take
+  // s. Runs cheaper than this are timed whole; most runs of a quick report are. To time the other runs whole would take
   // half a minute on one core
   const double cheap = full ? 0.2 : 0.012;
   const double all_of_it =
@@ -123,8 +123,8 @@ struct SettingRun {
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// Empty if the method does not support the scene. Notes report refused settings, and settings for which it built
-/// another scene.
+/// Empty if the method does not support the scene. Notes report settings that the method refused, and settings for
+/// which it built another scene.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
                                 std::vector<std::string>& notes) {
@@ -420,8 +420,8 @@ void time_speed_accuracy(const Request& request, const Scene& scene, const Table
   };
   std::vector<std::function<double()>> turns;
   for (TimedRow& run : timed) turns.push_back([&] { return run_once(run); });
-  // expensive runs are most of the work, and their times vary least. If a first run takes more than 0.2 ms, the second
-  // one takes the same time, to 1 % on average (measured for 934 runs)
+  // expensive runs are most of the work, but two repetitions suffice, because their times vary least. If a first run
+  // takes more than 0.2 ms, the second one takes the same time, to 1 % on average (measured for 934 runs)
   const auto samples =
       time_round_robin(turns, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
                                            : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.0005});

@@ -27,9 +27,9 @@ inline bool is_beyond(double limit, int halving, double h) { return halving > 3 
 
 /// Fixed steps, halved from 64 times the run's step down to a 16th of it. Steps above 8 times the run's step are
 /// limited to twice the rule's stability limit, if known, and all steps to the sampling interval. Tolerances range from
-/// 1e-2 to 1e-8 (full: 1e-10). Leaves out runs that would take more than 0.14 s of CPU time (0.72 s at the run's own
-/// step and longer ones) by an estimate that is equal on every machine; full: 2.5 times as much. Unless full, also
-/// leaves out tolerances whose runs would take more than 1.3 s. `dropped` counts the omissions.
+/// 1e-2 to 1e-8 (full: 1e-10). Leaves out runs whose estimated CPU time (the same on every machine) exceeds 0.14 s, or
+/// 0.72 s at the run's own step and longer ones; full: 2.5 times as much. Unless full, also leaves out tolerances whose
+/// runs would take more than 1.3 s. `dropped` counts the omissions.
 std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full,
                                  int* dropped = nullptr);
 

@@ -170,10 +170,10 @@ std::optional<StepSearch::Step> StepSearch::finer(const Method& method, const Ru
 std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, double best) const {
   const Runs runs = known(method);
   if (!runs.empty() && runs.back()->verdict == Verdict::unsupported) return std::nullopt;
-  // finds the coarsest run that is within the bound, as are all finer runs
+  // finds the coarsest run such that this run and all finer ones are within the bound
   size_t first = runs.size();
   while (first > 0 && runs[first - 1]->is_within(bound_)) --first;
-  if (first + 1 >= runs.size()) return finer(method, runs);  // none is within, or only the finest, maybe by accident
+  if (first + 1 >= runs.size()) return finer(method, runs);  // no run is within, or only the finest, maybe by accident
   const TriedRun& meets = *runs[first];
   const TriedRun* fails = first > 0 ? runs[first - 1] : nullptr;
   if (method.adaptive) {

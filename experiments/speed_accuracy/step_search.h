@@ -52,11 +52,11 @@ std::vector<TriedRun> tried_runs(const std::vector<SpeedAccuracyRow>& rows, cons
 /// All methods of the engine under test; on scenes with contact, also with event location if supported.
 std::vector<Method> candidates(const Scene& scene);
 
-/// Searches steps and tolerances on one model, and always tries the next run that is cheapest. Halves a method's step
-/// (starting with the longest step of the ladder of `speed-accuracy`; tolerances are divided by 100) until two
-/// consecutive runs are within the bound. Then bisects between the last run that misses the bound and the first run
-/// that meets it, down to step_resolution. Does not repeat existing runs. Abandons a method if all runs that it can
-/// still find cost at least `given_up` times as much as the best one.
+/// Searches steps and tolerances on one model. In each turn, runs the method whose next run is the cheapest. Halves a
+/// method's step (starting with the longest step of the ladder of `speed-accuracy`; tolerances are divided by 100)
+/// until two consecutive runs are within the bound. Then bisects between the last run that misses the bound and the
+/// first run that meets it, down to step_resolution. Does not repeat existing runs. Abandons a method if all runs that
+/// it can still find cost at least `given_up` times as much as the best one.
 class StepSearch {
  public:
   /// Returns nullopt if the run is not affordable, which ends the method's search.

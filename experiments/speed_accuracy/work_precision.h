@@ -40,8 +40,8 @@ std::string engine_of(const std::string& method);
 
 /// Adds an EngineSpeedRow for each engine with a timed run within `bound` (m), from which the truth's error bar is
 /// already subtracted. The row has the engine's cheapest run, and the ratio of its time to that of mysim's cheapest
-/// run. `low` and `high` are the extremes that both 90 % intervals allow. There is no ratio if no run of mysim is
-/// within the bound.
+/// run. `low` and `high`: extremes of the ratio that the 90 % intervals of both times allow. There is no ratio if no
+/// run of mysim is within the bound.
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table);
 

@@ -39,7 +39,7 @@ double root_below(double top, Excess excess) {
   return std::isnan(at) ? at : low;
 }
 
-/// Leapfrog as implemented, applied to (w, w') of the whole scene; h of either sign.
+/// A step of leapfrog as implemented, applied to (w, w') of the whole scene. The step h may be negative.
 class LeapfrogMatrix {
  public:
   explicit LeapfrogMatrix(const Linearised& s) : k_(s.k), dashpots_(s.dashpots), drag_(s.drag) {}
@@ -90,8 +90,8 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   if (system.size() > 90)
     return {0, -1, "damping and stiffness have different modes, and the step matrix of the whole scene is too large"};
   const LeapfrogMatrix leapfrog(system);
-  // eigenvalues of a neutral step have modulus 1; where two of them meet, they are off by the square root of the
-  // rounding error
+  // eigenvalues of a neutral step have modulus 1; where two of them coincide, their computed values are off by the
+  // square root of the rounding error
   auto unstable = [&](double h) { return radius_of(rule, leapfrog, system.size(), h) > 1 + 1e-6; };
   constexpr int walk = 60;
   for (int i = 1; i <= 2 * walk; ++i)
@@ -123,8 +123,8 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   PredictedLimit least{infinity, -1, ""};
   for (size_t i = 0; i < spectrum.modes.size(); ++i) {
     const auto [omega, gamma] = spectrum.modes[i];
-    // rounding errors give modes of free motion a small stiffness of either sign; 1e-7 is the root of the relative
-    // error
+    // rounding errors give modes of free motion a small stiffness of either sign; 1e-7 is the square root of the
+    // relative rounding error
     const double limit = rule.limit(omega > 1e-7 * spectrum.omega ? omega : 0, gamma);
     if (limit <= least.limit && std::isfinite(limit)) least = {limit, static_cast<int>(i), ""};
   }
@@ -261,7 +261,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
   push *= size / largest_column(push);
   scene.start.x += push;
   if (of_mode) scene.start.v += rates_of(s.modes[perturbation.mode]).fast.real() * push;
-  // adds a thousandth in every direction, from which an unstable mode other than the perturbed one can grow
+  // adds small random displacements, from which an unstable mode other than the perturbed one can grow
   for (int i = 0; i < scene.start.x.cols(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double part = 1e-3 * size * (2 * uniform(engine) - 1);
@@ -286,7 +286,7 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers, bounds);
   PerturbedRun trial{out.verdict, out.reason, out.end};
   // unknown rules, and rules that correct positions spring by spring, may have another state of rest, and the motion to
-  // that state is no growth (except for a rotation about the origin)
+  // it does not count as growth. A rotation rests at the origin under every rule
   const bool rests_there = rule && !rule->hard_constraints;
   if (growth_observer.first > 0 && (rests_there || rotation)) {
     trial.growth = growth_observer.last / growth_observer.first;
@@ -347,8 +347,8 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
     accepted |= !trial.without_answer();
     return trial.held();
   };
-  // without drag, a rule that grows at h omega = 1/64 grows at every step; with drag, the limit is found even if the
-  // drag rate is only a millionth of omega
+  // without drag, a rule that grows at h omega = 1/64 grows at every step, so the search ends there; with drag, it goes
+  // on, to find the limit even if the drag rate is only a millionth of omega
   const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
   // for h omega between one and five, steps increase by tenths: a composed rule may hold again beyond an unstable
   // interval (suzuki4 at 4.05, above its limit of 2.72), and doubling could skip that interval

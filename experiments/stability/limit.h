@@ -23,16 +23,16 @@ struct PredictedLimit {
 };
 /// The smallest limit of the rule for any mode. If damping and stiffness do not commute:
 /// - Runge-Kutta rules use the individual eigenvalues of the first-order Jacobian.
-/// - Symplectic Euler is stable while 4 - h^2 K - 2 h C is positive definite: for every w, the quadratic forms then
-/// satisfy both conditions for a single mode. Where the matrix becomes singular, the step has an eigenvalue -1.
+/// - Symplectic Euler is stable while 4 - h^2 K - 2 h C is positive definite: for every w, the quadratic forms of K and
+/// C meet both conditions for a single mode. Where the matrix becomes singular, the step has an eigenvalue -1.
 /// - Leapfrog is stable while 4 - h^2 K is positive definite, if there are no dashpots.
 /// - Other rules use the largest eigenvalue of their step matrix, up to 90 free coordinates.
 /// If only the fastest rates are known, there is a prediction only for rules whose stability region has almost the same
 /// depth in all directions, such as rk4 (to 12 %).
 PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum);
 
-/// Prediction for the rule that the method follows; `missing` is set if the method follows no rule, or a different one
-/// with this scene's ingredients.
+/// Prediction for the rule that the method follows. `missing` is set if the method follows no rule, or follows another
+/// rule for the ingredients of this scene.
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum);
 
 /// The base state for a scene's stability: its equilibrium, or its initial state if there is none.

@@ -48,8 +48,8 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     tables.notes.push_back(fmt::format("stability draws no map of step and {} for {} on {}: no cell has a result: {}",
                                        kind.name, method.name, scene.name, why));
   };
-  // An ingredient that the method does not support is missing in every cell, so the method is tried first, with a
-  // single shortest step.
+  // If the method does not support an ingredient, it would refuse every cell, so it is tried first, with a single step
+  // of the shortest length.
   if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.without_answer())
     return no_map(first.reason);
   long changed = 0, accepted = 0;
@@ -60,7 +60,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     const BaseState base = base_state_of(kind.with(scene, value));
     const PredictedLimit predicted = predicted_limit(method, base.spectrum);
     const Perturbation perturbation{predicted.mode, visible};
-    double held = 0, failed = 0;  // the last step that held before the first step that failed
+    double held = 0, failed = 0;  // s, first step that failed and last step that held before it
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
       LastFrames pictures(base.spectrum.omega, h);

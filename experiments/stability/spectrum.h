@@ -62,7 +62,7 @@ struct Equilibrium {
 /// 1e-11 of what the particle's springs could cause. A rotation rests at the origin. An equilibrium with negative
 /// stiffness in some direction (omega^2 < 0) is a saddle and not accepted as rest, although motions that start in a
 /// plane of symmetry end there. Random pushes of at least a hundredth of the shortest spring move the scene away from
-/// it, until a stable rest is found. The search ends without a rest after three attempts.
+/// the saddle, until a stable rest is found. The search ends without a rest after three attempts.
 Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

@@ -26,8 +26,8 @@ PredictionKind kind_of(const PredictedLimit& p) {
                                : PredictionKind::limit;
 }
 
-/// Adds the growth per step of the mode that determines the limit: around the limit or, if no step is stable, at a few
-/// steps, where runs until a blow-up would take millions of steps.
+/// Adds the growth per step of the mode that determines the limit. Uses steps around the limit or, if no step is
+/// stable, a few short steps, at which a run until its blow-up would take millions of steps.
 void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
                 TableSet& tables) {
   const Spectrum& s = base.spectrum;

@@ -93,8 +93,8 @@ std::optional<double> period(const Net& net, const Method& method, double step) 
   return found && *found >= 12 * step ? found : std::nullopt;
 }
 
-/// A method to be tried at several steps and iterations. sub_steps: its step is divided instead, because it makes one
-/// pass per step.
+/// A method to be tried at several steps and numbers of iterations. `sub_steps`: the method makes one pass per step, so
+/// its step is divided instead.
 struct Choice {
   std::string_view method;
   enum class Iterations { none, option, sub_steps } iterations;

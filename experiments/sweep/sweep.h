@@ -36,9 +36,9 @@ struct FailedPoint {
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress);
 
-/// The rows of all points in the order of the list, each taken from the first store that has it, and the conclusions of
-/// the list's experiments. Points that are in no store are appended to `missing`, with the reason if a file cannot be
-/// read.
+/// The rows of all points in the order of the list, and the conclusions of the list's experiments. The rows of a point
+/// are taken from the first store that has the point. Points that are in no store are appended to `missing`, with the
+/// reason if a file cannot be read.
 TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing);
 
 /// Computes all points in this process, without a store. Does not catch exceptions.

@@ -16,8 +16,8 @@ void pin_to_one_core();
 // A lock of this machine, shared by all sweeps of this user. It is held either by many concurrent untimed points or by
 // one timed point, so that shards on one machine do not disturb each other's timings.
 
-/// Total time for which one command may wait for locks, including its forked processes. A command creates one object
-/// and passes it to everything that computes or times; copies share the remaining time.
+/// Total time for which a command and its forked processes may wait for locks. A command creates one object and passes
+/// it to everything that computes or times; copies share the remaining time.
 class LockPatience {
  public:
   explicit LockPatience(double seconds = 60);

@@ -157,7 +157,7 @@ std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns
       return out.evaluations > 0 ? out.cpu_seconds / static_cast<double>(out.evaluations) : 0;
     });
   }
-  // each run returns the time per evaluation instead of its own time, and is already long enough
+  // the runs return times per evaluation, and are long enough not to be repeated within a round
   const auto times = time_rounds(runs, plan.rounds);
   for (size_t i = 0; i < turns.size(); ++i)
     if (times[i] != std::vector<double>{0}) all[i].per_evaluation = times[i];

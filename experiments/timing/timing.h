@@ -35,9 +35,9 @@ long repetitions_in(double seconds, const std::function<double(long)>& seconds_o
 
 struct TimingOptions {
   int least = 5, most = 11;    // repetitions of each run
-  double enough = 0.2;         // s: a run is repeated only `least` times if their total time is at least this
+  double enough = 0.2;         // s: after `least` repetitions, a run stops when its total time reaches this
   double resolution = 100e-6;  // s: shorter runs are repeated within a repetition until their total reaches this time
-  double warm = 0.5;           // s: the first run needs no warm-up if it takes at least this time, and then counts
+  double warm = 0.5;           // s: a shorter first run is only a warm-up; a longer one counts as a repetition
 };
 
 /// Times of every repetition of every run. Each run does its work once and returns its CPU time, s. After one warm-up
