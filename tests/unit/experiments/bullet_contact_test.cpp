@@ -81,7 +81,7 @@ TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
   // Bullet pushes the particle, whose energy was zero, out of the contact at 3e-4 m/s. This is a correction, not a
   // blow-up.
   EXPECT_GE(speed_at_the_end("bullet/pbd", on_slope(0.7), 1e-3), 0);
-  // Conversely, a blow-up is detected only above ten times the energy of a fall by 1/256 of the ball (of 1 km here).
+  // Conversely, a blow-up is detected only above ten times the energy of a fall by 1/256 of the ball's radius of 1 km.
   const Scene scene = on_slope(0.7);
   for (const double speed : {0.1, 50.0}) {  // m/s: energies of 5 mJ and 1.25 kJ, compared with 10 times 38 J
     DivergenceMonitor monitor(scene.model);

@@ -56,7 +56,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
     EXPECT_GT(at_smallest, 1e-4);     // but above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, of which half the step leaves a quarter
+    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, which is a quarter at half the step
   }
 }
 
@@ -73,7 +73,7 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
     SCOPED_TRACE(net);
     const double game = 1. / 60;
     for (const std::string method : {"bullet/pbd", "mysim/xpbd"}) {
-      // With one pass, the net is softer than requested, and softer than with half the step.
+      // With one pass per step, the net is softer than requested; half the step makes it stiffer.
       const double long_step = at(net, method, game, 1).by_sag.value(),
                    half = at(net, method, game / 2, 1).by_sag.value();
       EXPECT_LT(long_step, 0.8);

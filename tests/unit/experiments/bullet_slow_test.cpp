@@ -65,8 +65,8 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
       if (s.adaptive) continue;  // its steps change with the perturbation, so that growth shows only the tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
-      // Runs the scene's own method to the end, to find where its window ends, and the other methods over the declared
-      // window.
+      // Runs the scene's own method to the end, to find where the window of predictability ends. Runs the other methods
+      // over the declared window.
       const bool to_the_end = s.name == scene.method;
       Recorder r;
       crosscheck::Run run = default_run(scene);
@@ -85,13 +85,13 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
         EXPECT_GT(growing.window(), scene.window - 1.001 * scene.duration / scene.samples);
       }
       EXPECT_GT(growth, 0);
-      // The windows were chosen so that this bound holds. Dissipative first-order rules effectively simulate a cloth
-      // with another stiffness (xpbd, with one sweep per step: growth 6e3, measured on cloth-hang).
+      // The windows were chosen so that this bound holds. Dissipative first-order rules have a larger bound: in effect,
+      // they simulate a cloth with another stiffness (xpbd with one sweep per step: growth 6e3 on cloth-hang).
       EXPECT_LT(growth, s.order == 1 && !s.symplectic ? 1e4 : 1e3);
     }
     EXPECT_TRUE(own) << name;
-    // Expects the two symplectic rules and rk4, or the three rules that support first-order scenes. Only few rules are
-    // stable on special scenes.
+    // At least three rules are stable: the two symplectic rules and rk4 or, in first-order scenes, the three rules that
+    // support them. On special scenes, only few rules are stable.
     const bool special = scene.model.find<Constraints>() || scene.method == "implicit-euler";
     EXPECT_GE(stable, special ? 1 : 3) << name;
   }
@@ -135,7 +135,7 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   // required bounds: Bullet uses the normals of old positions, so that nodes hop by (v h)^2 / 2R in each step
   EXPECT_LE(rms, 2e-3);
   EXPECT_LE(mean_apart, 5e-3);
-  EXPECT_GE(closest, -1e-3);  // voxels of 0.005 m cause 6e-6 m, and one hop is added
+  EXPECT_GE(closest, -1e-3);  // error: 6e-6 m from voxels of 0.005 m, plus one hop
 }
 
 }  // namespace

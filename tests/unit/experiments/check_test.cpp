@@ -163,7 +163,7 @@ TEST(Relations, PassWhereNothingButKnownBreaksWasFound) {
 class KnownBreaks : public InFolder {};
 
 TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
-  // In the Gauss-Seidel iteration, the order of springs moves the net by about 1e6 tolerances.
+  // In the Gauss-Seidel iteration, another order of the springs moves the net by about 1e6 tolerances.
   for (const char* whose : {"method = \"mysim/xp*\"", "rule = \"xpbd\""}) {
     SCOPED_TRACE(whose);
     const auto known = read_known_breaks(

@@ -131,8 +131,8 @@ TEST(PlaneProbes, ClosedFormsHoldWithinTheOrderOfEachMethod) {
         EXPECT_TRUE(value) << out.reason;
         return std::abs(value.value_or(NAN) - by_theory(probe));
       };
-      // An impact may add an excess of up to (1 + e) g h to the speed. At the later speed v = 1.24 m/s, the excess of
-      // three impacts changes the height by up to v / g times this value, plus the distance of one step. With events,
+      // An impact may add an excess of up to (1 + e) g h to the speed. At the later speed v = 1.24 m/s, three impacts
+      // change the height by up to v / g times the sum of their excesses, plus the distance of one step. With events,
       // only sampling matters: the highest sample is up to g h^2 / 8 below the apex. Heights are relative to 0.3 m.
       EXPECT_LT(off(PlaneProbe::apex), events ? 9.81 * h * h / 8 / 0.3 + 1e-9 : (3 * 1.8 + 1) * 1.24 * h / 0.3);
       // each of the two impacts in 0.467 s lasts until the end of its step
@@ -231,8 +231,8 @@ TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
   for (const auto name : {"leapfrog", "rk4", "bullet/deformable-explicit"}) {
     const auto found = leaving(find_method(name), 1e-3, out);
     ASSERT_TRUE(found) << name;
-    // There, a step covers 0.15 degrees. After contact ends, the gap grows as the cube of the time. One step more or
-    // less of contact therefore changes the angle by at most a degree.
+    // Near the exact angle, a step covers 0.15 degrees. After contact ends, the gap grows as the cube of the time. One
+    // step more or less of contact therefore changes the angle by at most a degree.
     EXPECT_NEAR(found->angle, exact.angle, 1) << name;
     EXPECT_NEAR(found->speed, exact.speed, 0.02 * exact.speed) << name;
   }

@@ -218,8 +218,8 @@ TEST(Disagreements, DirectionOfContactIsTheGradientOfTheGridInAVoxel) {
     double largest = 0;
     for (const DirectionError& e : errors) {
       SCOPED_TRACE(fmt::format("{:.3g} degrees, voxel {:g} m", e.angle * 180 / std::numbers::pi, voxel));
-      // No angle is within 0.3 mm of a face between voxels. The particle starts on the surface and stays within 0.1 mm
-      // of it.
+      // No position is within 0.3 mm of a face between voxels. The particle starts on the surface and stays within 0.1
+      // mm of it.
       const Vec3 n = gradient_of_the_grid(1.02 * Vec3(std::sin(e.angle), std::cos(e.angle), 0), 1, voxel);
       const double in_plane = std::atan2(n.x(), n.y()) - e.angle, sideways = std::asin(n.z());
       fmt::print("{:.4f} rad, voxel {:g} m: in plane {:+.2e}, by the grid {:+.2e}; sideways {:+.2e}, {:+.2e}\n",

@@ -94,8 +94,8 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
     for (const auto method : {"symplectic-euler", "leapfrog", "suzuki4", "bullet/deformable-explicit"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const ResidualStatistics r = long_run(method, scene, 2e-3, 20000);
-      // A random walk would have the exponent 0.5, and a drift 1. The bound is a tenth of 0.5, not 0, because the
-      // maxima of two vibrations rarely coincide.
+      // A random walk would have the exponent 0.5, and a drift the exponent 1. The bound is a tenth of 0.5 and not 0,
+      // because the maxima of two vibrations rarely coincide.
       EXPECT_LT(r.growth, 0.05);
       // With twice the slowest frequency (the pendulum's swing) as Omega, the bound 6 A / (Omega T) for a sine is 3 %
       // of A; twice that is allowed.
@@ -103,8 +103,8 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
     }
     for (const auto method : {"trapezoidal", "rk4"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
-      // The error is proportional to time. In the first tenth, a superposed oscillation may reach a tenth of the drift:
-      // log10(1.1).
+      // The error is proportional to time. A superposed oscillation may reach a tenth of the drift in the first tenth
+      // of the run, which changes the growth by log10(1.1).
       EXPECT_NEAR(long_run(method, scene, 2e-3, 20000).growth, 1, 0.045);
     }
   }
@@ -124,7 +124,7 @@ TEST(LongEnergy, ImplicitMidpointKeepsItWhereForcesAreLinear) {
     }
 }
 
-/// The small cloth swings, with one state and one row per step. Its constants are written out here.
+/// A run of the small swinging cloth, with one state and one ledger row per step, and the cloth's constants.
 struct Swinging : Observer {
   static constexpr double h = 1e-3, mass = 0.25 / 25, g = 9.81;
   static constexpr int first_free = 5, particles = 25;  // the upper edge is pinned
@@ -147,8 +147,8 @@ struct Swinging : Observer {
 };
 
 TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
-  // sums of two independent expressions over the trajectory: half m (v1^2 - v0^2) = m (v1 - v0) . (v1 + v0) / 2, and m
-  // g . (x1 - x0)
+  // sums the changes of both energies over the steps, in independent expressions: m (v1 - v0) . (v1 + v0) / 2 for half
+  // m (v1^2 - v0^2), and m g . (x1 - x0)
   for (const Method& method : all_methods()) {
     if (!method.name.starts_with("mysim/") && !method.name.starts_with("bullet/")) continue;
     SCOPED_TRACE(method.name);

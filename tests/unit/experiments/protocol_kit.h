@@ -1,4 +1,4 @@
-// An adapter with deliberate defects, and what the conformance kit reports about it.
+// An adapter with deliberate defects, and the conformance kit's report about it.
 #pragma once
 
 #include <set>

@@ -140,8 +140,8 @@ TEST(ClothCantilever, ComesToRestAsTheElastica) {
     const double drop = -1.5 * end(1, 12) + 0.5 * end(1, 11);
     fmt::print("{}: the tip is {:.4g} of the length below, the elastica's {:.4g}\n", name, drop / strip.length,
                truth / strip.length);
-    // Errors of the drop. Grid, of order 2: 0.006 % at 64 cells (experiment fabric), which is 0.17 % at 12 cells.
-    // Stretch: half of w L divided by 50 N/m, the stiffness of two rows per unit width.
+    // Errors of the drop: the grid's, of order 2, is 0.006 % at 64 cells (experiment fabric), hence 0.17 % at 12 cells;
+    // the stretch's is half of w L divided by 50 N/m, the stiffness of two rows per unit width.
     EXPECT_NEAR(drop, truth, (0.0017 + strip.weight * strip.length / 2 / 50) * truth) << name;
     EXPECT_LT(rms_distance(end, a.trajectory.x[90]), scene.tolerance);
   }

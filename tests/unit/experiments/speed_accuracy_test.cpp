@@ -44,8 +44,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
   const std::vector<std::function<double()>> runs = {[&] { return order += 'a', 1.; },
                                                      [&] { return order += 'b', 0.4e-3; }};
   const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
-  // Each run has one warm-up. The warm-up of `a` takes 1 s, which is long enough to count. Then `b` runs three times
-  // per turn until it has taken 1 ms, and `a` stops after two runs.
+  // Each run begins with a warm-up. That of `a` takes 1 s, which is long enough to count as a repetition. Afterwards,
+  // `b` runs three times per turn until it has taken 1 ms, and `a` stops after two runs.
   EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);
@@ -313,7 +313,7 @@ TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   conclude_speed_accuracy(tables);
   const Table& best = *tables.table("speed-accuracy-cheapest");
   EXPECT_EQ(std::get<double>(best.at(0, "distance")), 9e-3);  // bound: 10 % of 1 m
-  EXPECT_EQ(std::get<double>(best.at(1, "distance")), 7e-3);  // bound: 1 %, 10 mm, which 9 + 2 mm exceed
+  EXPECT_EQ(std::get<double>(best.at(1, "distance")), 7e-3);  // bound: 1 % of 1 m, which 9 + 2 mm exceed
   EXPECT_EQ(std::get<std::string>(best.at(2, "remark")), "below the error bar of the reference solution");
 }
 

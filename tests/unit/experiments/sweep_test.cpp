@@ -297,7 +297,7 @@ TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const pid_t child = fork();
   if (child == 0) {
-    alarm(20);  // otherwise it would wait forever
+    alarm(20);  // ends the child if it waits forever
     _exit(run(several(3)).empty() ? 0 : 1);
   }
   std::signal(SIGCHLD, before);
@@ -320,7 +320,7 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
     _exit(0);
   }
   while (ran().size() < 6) usleep(1000);  // waits until five points are done, and the slow one has started
-  kill(child, SIGKILL);                   // and its worker
+  kill(child, SIGKILL);                   // its worker ends, too
   waitpid(child, nullptr, 0);
   usleep(700000);
   run(several(8), {LockPatience(), 1});

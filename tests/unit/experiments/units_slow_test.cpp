@@ -132,8 +132,8 @@ Scene scene_in(const Kind& kind, const Units& u) {
   return parse_scene(in_units(head + kind.text, u), kind.name);
 }
 
-/// Units of length, mass or time, each scaled alone up and down by each of the factors, and then `mixed` combinations
-/// of all three.
+/// Units of length, mass or time, each scaled alone up and down by each of the factors; followed by `mixed`
+/// combinations of all three.
 std::vector<Units> units_by(std::vector<double> factors, int mixed, unsigned seed) {
   std::vector<Units> list;
   for (const double factor : factors)

@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                {"margin", "1"}},
               {}};
   std::map<std::string, std::array<Count, 2>> counts;  // by family: counts of stable and unstable runs
-  std::map<std::string, std::array<long, 2>> later;    // by family: later failures; those with a small margin
+  std::map<std::string, std::array<long, 2>> later;    // by family: later failures, and how many had a small margin
   for (unsigned seed = first; seed <= last; ++seed) {
     std::optional<Trial> t;
     try {
