@@ -98,12 +98,12 @@ struct Experiment {
   std::string_view name, question;
   /// Makes the points of a request; equal requests give equal lists.
   std::vector<Point> (*points)(const Request&);
-  /// Scenes of a quick run for which no scene is named; empty: quick_scenes().
+  /// Scenes of a quick run if the user names none. If empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are derived from the rows of all points.
   void (*conclude)(TableSet&) = nullptr;
-  /// Scenes that get their own charts and playable runs in a quick run for which no scene is named. Other scenes appear
-  /// in tables and joint charts only. Empty: all scenes.
+  /// Scenes that get their own charts and playable runs in a quick run if the user names no scenes. Other scenes appear
+  /// in tables and joint charts only. If empty: all scenes.
   std::span<const std::string_view> quick_charts = {};
 };
 

@@ -30,9 +30,9 @@ std::optional<double> sag_of(const Scene& scene);
 /// period.
 std::optional<double> period_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
-/// Time (s) after which the mechanical energy (kinetic, elastic and gravitational) exceeds that at rest by less than a
-/// thousandth of its largest excess. `about`: the expected time, s; results beyond 1.5 times this time are extrapolated
-/// exponentially. Returns nullopt if there is no state of rest.
+/// Time (s) after which the mechanical energy (kinetic, elastic and gravitational) exceeds the energy at rest by less
+/// than a thousandth of its largest excess. `about`: the expected time, s; results beyond 1.5 times this time are
+/// extrapolated exponentially. Returns nullopt if there is no state of rest.
 std::optional<double> settle_time_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
 /// Largest strain (L - r) / r of any spring during the scene, 1. Returns nullopt if no spring has a rest length.

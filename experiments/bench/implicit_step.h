@@ -21,7 +21,7 @@ class FactorisedStep {
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// For each entry of the 3 x 3 block of two particles: its index in the stored (lower) triangle; -1 if not stored.
+  /// For each entry of the 3 x 3 block of two particles: index among the matrix's stored values; -1 if not stored.
   struct Places {
     int number[3][3];
   };

@@ -8,7 +8,7 @@ namespace crosscheck {
 
 std::vector<Point> relations_points(const Request& request) {
   std::vector<Method> methods = request.methods.empty() ? default_methods() : request.methods;
-  // leaves out shipped methods: their answers do not depend on the chosen scenes, and the report of all scenes has them
+  // leaves out shipped methods: their answers do not depend on the chosen scenes, and are in the report of all scenes
   if (request.scenes_only) std::erase_if(methods, [](const Method& method) { return method.fingerprint.empty(); });
   const std::string text = read_file(shipped_known_breaks(), "a table of known breaks");
   const std::vector<KnownBreak> known = read_known_breaks(shipped_known_breaks());

@@ -213,8 +213,8 @@ class Kit {
     return begins;
   }
 
-  /// Nothing acts along x in this scene, so that every consistent rule moves along x at the initial speed. The position
-  /// therefore shows the time of a frame, much more precisely than the allowed half step.
+  /// Nothing acts along x in this scene, so that every consistent rule moves the particle along x at the initial speed.
+  /// Its position therefore shows the time of a frame, much more precisely than the allowed half step.
   void try_times(const Scene& scene, const Run& run, const std::vector<Points>& path) {
     const TimeGrid grid = time_grid(run);
     for (size_t i = 0; i < path.size(); ++i) {

@@ -46,8 +46,8 @@ class Subject {
   /// Computes the run again in every call.
   SubjectRun fresh_run(const Scene& scene, const Run& run);
 
-  /// Half the distance from 1 to the next number in the engine's precision, which is declared by its method or read
-  /// back from it; by default, double precision.
+  /// Half the distance from 1 to the next number in the engine's precision. The method declares the precision, or it is
+  /// read back from the engine; by default, double precision.
   double unit_roundoff() const;
 
   /// Largest distance that rounding may cause between two runs up to each sample, m (and m/s). Every step rounds

@@ -81,7 +81,7 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   reorder(scene.start.x, other.start.x);
   reorder(scene.start.v, other.start.v);
   for (int i = 0; i < n; ++i) to.mass[i] = from.mass[order[i]], to.pinned[i] = from.pinned[order[i]];
-  std::map<int, int> homes;  // home positions of pins; a map, because the list of pins must ascend
+  std::map<int, int> homes;  // index of each pin's home position; a map, to list pins in ascending order
   for (size_t i = 0; i < from.pins.size(); ++i) homes[number[from.pins[i]]] = static_cast<int>(i);
   to.pins.clear();
   for (const auto& [pin, home] : homes) {

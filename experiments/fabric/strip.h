@@ -45,7 +45,7 @@ double sag_of(const HangingNet& net, const Points& x);
 /// Positions of the particles along the elastica, one cell apart.
 Points along_elastica(const StripNet& net);
 
-/// Frequencies (Hz), ascending, of those vibrations normal to the flat strip in which both rows move alike.
+/// Frequencies (Hz), ascending, of vibrations normal to the flat strip; only vibrations in which both rows move alike.
 std::vector<double> frequencies_of(const StripNet& net);
 
 }  // namespace crosscheck

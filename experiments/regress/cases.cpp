@@ -16,10 +16,10 @@
 namespace crosscheck {
 namespace {
 
-/// Factor by which estimates, which hold for release builds, are multiplied. Without optimisation, each access to a
-/// number through Eigen is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times
-/// as long. __OPTIMIZE__ cannot be used here, because fmt's headers switch optimisation on temporarily, and afterwards
-/// g++ reports it as on.
+/// Factor for estimated times, which are those of release builds. Without optimisation, each access to a number through
+/// Eigen is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long.
+/// __OPTIMIZE__ cannot be used here, because fmt's headers switch optimisation on temporarily, and afterwards g++
+/// reports it as on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else

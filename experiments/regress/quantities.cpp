@@ -135,8 +135,8 @@ void rebound_height(const Observation& seen, Quantities& out) {
   double highest = 0;
   for (int i = 0; i < seen.path().frames(); ++i) {
     const double gap = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
-    // a particle touches a surface if its gap is smaller than its movement in the last step, because the contact lies
-    // between two samples
+    // a particle touches a surface if the gap is smaller than the particle's movement since the last sample, because
+    // the contact lies between two samples
     const double fall = i > 0 ? largest_column(seen.path().x[i] - seen.path().x[i - 1]) : 0;
     touched |= i > 0 && gap < fall;
     if (touched) highest = std::max(highest, gap);

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case and the name of its result. Tolerances take three or four more runs.
+/// A case and the name of its result. With tolerances, the case needs three or four more runs.
 struct Job {
   Case test_case;
   std::string name;

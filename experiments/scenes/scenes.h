@@ -14,7 +14,7 @@ namespace crosscheck {
 /// Names of the shipped scenes, from simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
-/// The scenes of a quick run for which no scene is named: the shipped scenes, with only one cloth of each kind.
+/// Scenes of a quick run if the user names none: the shipped scenes, with only one cloth of each kind.
 std::vector<std::string> quick_scenes();
 
 /// Finds a shipped scene or a known disagreement by name, or any TOML file by path. Throws InputError with a suggestion

@@ -1,5 +1,5 @@
-// Search for the cheapest run of a scene within an accuracy, on which the recommendations of the report and `advise`
-// are based.
+// Search for the cheapest run of a scene that meets an accuracy. The recommendations of the report and of `advise` are
+// based on this search.
 #pragma once
 
 #include <functional>

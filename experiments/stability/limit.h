@@ -64,10 +64,10 @@ struct PerturbedRun {
   bool unsupported() const { return verdict == Verdict::unsupported; }
   /// True if the method refused the step, or its program died or took too long, which says nothing about stability.
   bool without_answer() const { return unsupported() || verdict == Verdict::crash || verdict == Verdict::timeout; }
-  /// True if the run neither failed nor grew. A perturbed rest may grow by up to 1/20 over the run (beats of a neutral
-  /// rule's modes reach a thousandth). If a Runge-Kutta rule multiplies the mode by a constant factor, this factor is
-  /// also limited: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less than 1e-9
-  /// per step counts as neutral, however long the run is.
+  /// True if the run neither failed nor grew. A perturbed rest may grow by up to 1/20 over the run (a neutral rule lets
+  /// it grow by a thousandth, as its modes beat). If a Runge-Kutta rule multiplies the mode by a constant factor, this
+  /// factor is also limited: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less
+  /// than 1e-9 per step counts as neutral, however long the run is.
   bool held() const;
   /// The verdict, or `energy` if a growing motion ended before it reached the energy limit of the monitor.
   Verdict effective_verdict() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }

@@ -95,7 +95,7 @@ MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
                  holder_of(handle_), file);
     const auto begun = std::chrono::steady_clock::now();
     usleep(50000);
-    // subtracts the measured time, because on a busy machine the pause takes longer
+    // subtracts the measured time, because on a busy machine a pause takes longer than requested
     shared.left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
   if (!held_ && !shared.exhausted.exchange(true))
