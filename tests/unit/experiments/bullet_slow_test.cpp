@@ -149,9 +149,9 @@ using namespace testing_tools;
 
 /// Allowed difference, m. Both engines sum the same forces in different orders. In each step, the results differ by
 /// about 1e-15 m (an ulp of some metres). Over thousands of steps these differences accumulate like a random walk, to
-/// 100 times that, and grow like any perturbation. The bound is at least 1e-12 m because the rounding of velocities
-/// adds a drift of sqrt(N) T h eps k L / m in N steps. (Springs of 200 000 N/m in a cloth coarser than those tested
-/// here reach 4e-12 m in that way.)
+/// about 1e-13 m, and grow like any perturbation. The bound is at least 1e-12 m because the rounding of velocities adds
+/// a drift of sqrt(N) T h eps k L / m in N steps. (Springs of 200 000 N/m in a cloth coarser than those tested here
+/// reach 4e-12 m in that way.)
 double allowed(double growth) { return 1e-13 * std::max(10.0, growth); }
 
 struct Comparison {

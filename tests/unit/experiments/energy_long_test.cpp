@@ -199,8 +199,8 @@ TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
       off_gravity = std::max(off_gravity, std::abs(now.gravitational - last.gravitational - gravity));
       off_kinetic = std::max(off_kinetic, std::abs(now.kinetic - last.kinetic - kinetic));
     }
-    // Rounding errors are some ulps of 2.5 J in each row. For rules that do not use the force at the start, that force
-    // has a relative error of h / period.
+    // Rounding errors are some ulps of 2.5 J in each row. If a rule uses another force than that at the start, the
+    // formula with the force at the start has a relative error of h / period.
     EXPECT_LT(off_gravity, 8 * eps * s.g * 0.25);
     EXPECT_EQ(off_kinetic < 8 * eps * s.g * 0.25, rule.force_at_start);
   }

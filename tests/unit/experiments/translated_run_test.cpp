@@ -47,7 +47,7 @@ TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
 
 TEST(TranslatedRun, WithContactOfWhichNoTruthIsKnownIsADifferenceAndNoError) {
   // Two particles on a spring above a moving ball, which they reach after 0.2 s. The ball is listed twice, which the
-  // second solution does not support, so that only that of the contact rule remains.
+  // second solution does not support, so that only the solution under the contact rule remains.
   const std::string ball =
       "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.1\nfriction = 0.3\n"
       "[sphere.motion]\namplitude = [0, 0.01, 0]\nfrequency = 0.5\nramp = 0.5\n";
