@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the files of a release: Debian packages for both supported releases, the Python package, a sample report and the
-# lab as single pages, and their checksums.
+# lab as single pages, and the checksums of all these files.
 #
 #   experiments/ci/release.sh [OUT]      OUT is out/release by default
 #

@@ -34,8 +34,8 @@ Scene everything() {
       "all-at-once");
 }
 
-/// Number of the scene's steps in all runs: as many as the slowest engine's representative takes within a CPU budget.
-/// In a full run the budget suffices for all steps of a cloth of 10 x 10.
+/// Length of all runs, in steps of the scene: as many as the representative of the slowest engine takes within a CPU
+/// budget. In a full run the budget suffices for all steps of a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
   double of_all = 0;

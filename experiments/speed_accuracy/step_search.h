@@ -79,7 +79,7 @@ class StepSearch {
   using Runs = std::vector<const TriedRun*>;  // one method's runs, from coarse to fine
   struct Step {
     double value = 0, cost = 0;  // setting of the next run, and its smallest possible cost
-    double reach = 0;            // smallest cost of the run with which the method's search can end
+    double reach = 0;            // smallest possible cost of the final run of the method's search
   };
   Runs known(const Method& method) const;
   std::optional<Step> next_step(const Method& method, double best) const;
