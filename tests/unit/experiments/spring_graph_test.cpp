@@ -113,7 +113,7 @@ std::vector<std::pair<std::string, SpringGraph>> networks(SpringLaw law) {
   for (unsigned seed = 1; seed <= 5; ++seed) all.emplace_back(fmt::format("hubs {}", seed), hubs(seed, law));
   for (int particles = 2; particles <= 70; ++particles)
     all.emplace_back(fmt::format("strands of {}", particles), strands(particles, particles, {1, 2, 3, 8, 21}, law));
-  // rings of minimal length, and offsets close to tile sizes
+  // ring buffers of minimal length, and offsets close to tile sizes
   for (unsigned seed = 1; seed <= 5; ++seed)
     all.emplace_back(fmt::format("strands far apart {}", seed),
                      strands(seed, 700, {1, 7, 8, 9, 39, 40, 41, 103, 104, 232, 233, 5}, law));

@@ -46,8 +46,8 @@ TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
   std::sort(expected.begin(), expected.end());
   const auto found = frequencies(base.spectrum);
   ASSERT_EQ(found.size(), expected.size());
-  // The equilibrium is accurate to 1e-11 of what the springs could exert, 2e-8 m/s^2. For the slowest mode (11 / s^2)
-  // this is 2e-9 m, which is 1e-7 of the stretch and of the tension. The error of frequencies is half of that.
+  // Accelerations at the equilibrium are at most 1e-11 of what the springs could exert: 2e-8 m/s^2. In the slowest mode
+  // (11 / s^2), this displaces by 2e-9 m: 1e-7 of the stretch and of the tension, and half of that in frequencies.
   for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected.back());
 }
 
