@@ -11,8 +11,8 @@
 
 namespace crosscheck {
 
-/// Drawable elements of a scene: the triangles of its cloths, and those springs and distance constraints that have an
-/// end outside all triangles. Indices are particle numbers.
+/// Drawable elements of a scene: the triangles of its cloths, and the springs and distance constraints with at least
+/// one end that is not a corner of a triangle. Indices are particle numbers.
 struct Shape {
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::pair<int, int>> lines;
@@ -25,7 +25,7 @@ std::string obj_bytes(const Points& x, const Shape& shape);
 std::string ply_bytes(const Points& x, const Shape& shape);
 
 /// Mesh of a ball around the origin. Its vertices are a pole, 31 rings of 64 vertices, and the other pole. Triangles
-/// are counter-clockwise as seen from outside. The chords dip below the ball by 0.12 % of its radius.
+/// are counter-clockwise as seen from outside. The edges dip below the ball by 0.12 % of its radius.
 std::pair<Points, Shape> ball_mesh(double radius);
 
 /// Writes FOLDER/frame-0001.obj (or .ply) and so on, beginning with the initial state; vertices are particles. Writes

@@ -234,7 +234,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   if (!options.tolerance.empty()) {
     const double tolerance = tolerance_of(options.tolerance, *scene);
     std::vector<Method> methods = options.methods.empty() ? candidates(*scene) : find_methods(options.methods);
-    // memory for two runs: the truth, and the trial that is compared with it
+    // the memory must hold two runs: the truth, and the trial that is compared with the truth
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
     progress.begin(fmt::format("reference solution of {}", scene->name));
@@ -261,7 +261,7 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // finish() removes an earlier advice.toml; keep it if it is the scene of this command
+    // finish() removes an earlier advice.toml; keep that file if it is the scene of this command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);

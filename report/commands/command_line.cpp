@@ -10,7 +10,7 @@
 namespace crosscheck {
 namespace {
 
-/// Validator that accepts a number or a fraction, with a unit of time if `times` is true, and passes on a plain number.
+/// Validator that accepts a number or a fraction, with a unit of time if `times` is true, and replaces it by a decimal.
 CLI::Validator number(bool zero_allowed, bool times) {
   const auto read = [times](const std::string& text) -> std::optional<double> {
     static const std::map<std::string, double> seconds = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},

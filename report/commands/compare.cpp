@@ -116,7 +116,7 @@ int compare_command(const CompareOptions& options) {
     write_csv(table, lines, options.out);
   }
 
-  bool mismatch = false;  // the numbers of the other engines are printed nevertheless
+  bool mismatch = false;  // true: a certificate failed; the other engines' numbers are still printed
   for (const Certificate& certificate : result.certificates) {
     print(certificate, result.certificates.size() > 3);
     const std::string file = file_name_of("certificate-" + certificate.method) + ".json";

@@ -38,7 +38,7 @@ bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<co
   return true;
 }
 
-/// On failure prints the end of the program's output.
+/// Returns false if the program fails, and then prints the end of its output.
 bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
               const std::string& what) {
   const ProgramResult result = run_program(argv, folder);
@@ -48,7 +48,7 @@ bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, cons
   return false;
 }
 
-/// Writes to a temporary name and renames, so that a partial program is never started.
+/// Writes the program under a temporary name and then renames it, so that a partial program is never started.
 void install(const std::string& program, const fs::path& as) {
   write_file(as, program);
   fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
@@ -139,7 +139,7 @@ int bundle_module(const EngineOptions& options, const OutsideEngine& engine, con
       for (const char* name : {"LICENSE", "LICENSE.md"})
         if (fs::exists(from / name)) licence = read_file(from / name, "the licence");
     for (size_t at = 0; (at = licence.find("*/", at)) != std::string::npos;) licence.insert(at + 1, " ");
-    // a single script for Node: import.meta.url does not exist there, and WebAssembly must be embedded
+    // make a single script for Node: in such a script import.meta.url does not exist, and WebAssembly must be embedded
     done = run_tool(
         {"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--target=node18", "--format=cjs",
          "--loader:.wasm=binary", "--define:import.meta.url=\"file:///engine.js\"", "--log-level=error",

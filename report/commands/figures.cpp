@@ -43,7 +43,7 @@ FigureSelection select_figures(const FiguresOptions& options) {
   if (options.names.empty()) {
     for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
     selection.pictures = scenes_for({}, options.scenes, options.full, options.methods);
-    // without a cloth, a picture says little on paper, and is drawn on request only
+    // pictures without a cloth say little on paper, and are drawn on request only
     if (options.scenes.empty() && !options.full)
       std::erase_if(selection.pictures, [](const Scene& scene) { return scene.triangles.empty(); });
   }
@@ -116,7 +116,7 @@ class Pictures {
     return points;
   }
 
-  /// Makes the points of `engines` draw their scenes, too. Pictures that fail are tried again with the other figures.
+  /// Makes the points of `engines` draw their scenes, too. A picture that fails is drawn again with the other figures.
   void draw_with_engines(std::vector<Point>& points, const Store& store) const {
     const std::vector<Point> own = this->points();
     for (Point& point : points)

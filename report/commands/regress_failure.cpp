@@ -54,7 +54,7 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-/// The run as a result, for pictures; nullopt if the run was refused.
+/// Converts a run to a result that can be drawn; nullopt if the run was refused.
 std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
   if (case_run.trajectory.x.empty()) return std::nullopt;
   return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
@@ -80,7 +80,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   e.old_result->trajectory.t = {shape->t}, e.old_result->trajectory.x = {shape->x};
 }
 
-/// Compares both runs at every sample, with the tolerance of the next time for which baselines have one.
+/// Compares both runs at every sample. The tolerance is that of the next time for which baselines have a tolerance.
 void beside_other(FailureDetails& e, const Method& against) {
   Case old = e.test_case;
   old.method = against;

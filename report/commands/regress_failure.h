@@ -16,9 +16,9 @@ struct FailurePart {
   std::vector<PageImage> images;
 };
 
-/// Repeats the runs of the case (with --against, under both methods). Draws into OUT/figures both curves, their
-/// difference over time with its tolerance, and both shapes side by side. Appends figures that cannot be drawn to
-/// `problems`.
+/// Repeats the runs of the case (with --against, under both methods). Draws three figures into OUT/figures: both
+/// curves, their difference over time with its tolerance, and both shapes side by side. Appends the reasons to
+/// `problems` if figures cannot be drawn.
 FailurePart drawn_failure(const Case& test_case, const std::vector<Comparison>& rows, const Regression& regression,
                           const Provenance& lines, std::vector<std::string>& problems);
 

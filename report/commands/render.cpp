@@ -14,7 +14,7 @@ struct RenderOptions {
 
 void read_size(const std::string& text, Shot& shot) {
   int end = 0;
-  // the limit 8192 is below that of the renderer, 16384 pixels per side
+  // 8192 is safely below the renderer's own limit, 16384 pixels per side
   if (std::sscanf(text.c_str(), "%dx%d%n", &shot.width, &shot.height, &end) != 2 ||
       end != static_cast<int>(text.size()) || shot.width < 64 || shot.height < 64 || shot.width > 8192 ||
       shot.height > 8192)

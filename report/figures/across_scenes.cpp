@@ -146,7 +146,7 @@ std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// States in how many ratios a time is scaled from a part of its run; empty if in none.
+/// States how many ratios use a time that is scaled from a part of its run; empty if there are no such ratios.
 std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
   for (const EngineSpeedRow& row : rows)

@@ -42,8 +42,9 @@ bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
-/// True if the sag at rest keeps growing with the logarithm of the number of cells. If its error were proportional to
-/// 1/cells, its growth per log(cells) would halve from the first to the last pair of four grids of 8 to 24 particles.
+/// True if the sag at rest keeps growing with the logarithm of the number of cells. If instead the sag had an error
+/// proportional to 1/cells, then, on four grids of 8 to 24 particles, the growth of the sag per log(cells) would halve
+/// from the first pair of grids to the last pair.
 bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   std::vector<double> growth;
   const GridRow* before = nullptr;

@@ -25,7 +25,7 @@ Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
   return list;
 }
 
-/// Resolution of curves along an axis: a ten-thousandth of its range, or of each value if it is logarithmic.
+/// Resolution of curves along an axis: a ten-thousandth of its range or, on a logarithmic axis, of each value.
 class Fineness {
  public:
   Fineness(const Axis& axis, const std::vector<Curve>& curves, double std::pair<double, double>::*coordinate) {
@@ -148,7 +148,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // a line without a marker on every point has a few marks, which only distinguish it from other lines
+  // a line without a marker on every point gets a few marks that distinguish it from other lines
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();

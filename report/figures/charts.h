@@ -139,7 +139,7 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 
 /// "Scene cloth-hang; step 500 µs; commit abc."
 std::string caption_of(const Scene& scene, const std::string& commit);
-/// Tier of a figure: the scene's truth with its error bar; or another engine, with what round-off alone may cause.
+/// Tier of a figure: the scene's truth with its error bar; or another engine, with the effect of round-off alone.
 std::string tier_of(const SceneData& facts);
 std::string another_engine(const SceneData& facts);
 

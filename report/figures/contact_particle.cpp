@@ -128,7 +128,7 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;
-  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest; key: with events
+  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest slope; key: true for +events
   std::vector<ContactOrderRow> rows;
   std::ranges::copy(all | with(&ContactOrderRow::probe, "leaves with friction"), std::back_inserter(rows));
   for (const std::string& method : distinct(rows, &ContactOrderRow::method)) {

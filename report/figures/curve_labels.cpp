@@ -1,4 +1,4 @@
-// Places labels at the ends of curves, along curves, or in a column next to the plot, where they cover nothing.
+// Places labels where they cover nothing: at the ends of curves, along curves, or in a column next to the plot.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -286,7 +286,8 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// Puts the meanings of marks above the frame; that of a single kind of cross, if it fits, next to the top row's last.
+/// Puts the meanings of marks above the frame. If all crosses are of one kind, and there is space, puts their meaning
+/// next to the rightmost cross of the top row instead.
 void CurvePlot::place_kinds() {
   for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
     remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});

@@ -47,8 +47,8 @@ std::string common_words(const std::string& a, const std::string& b) {
   return a.substr(0, last);
 }
 
-/// Priority for colours: first curves that are not methods, then representative and position-based methods, other
-/// methods of these engines, integrators, and all others.
+/// Priority for colours, in this order: curves that are not methods; representative and position-based methods; other
+/// methods of these engines; integrators; all other methods.
 int place_in_line(const NamedCurves& named) {
   const std::string method = method_named(named.title);
   if (method.empty()) return 0;
@@ -212,7 +212,7 @@ void CurvePlot::assign_rows() {
   strip_ = taken.size();
 }
 
-/// Box of the plot. Its height follows from the figure's width, its margins from ticks and titles.
+/// Sets the box of the plot: its height from the figure's width, and its margins from ticks and titles.
 void CurvePlot::frame(double right_column) {
   const double plot_height = (wide_ > 600 ? 0.55 : 0.58) * wide_;
   column_ = right_column;

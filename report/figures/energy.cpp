@@ -112,7 +112,7 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   for (const auto& [what, methods] : classes)
     f.finding += fmt::format("{}{}: {}.", f.finding.empty() ? "" : " ", capital(what), joined(methods));
-  // there are no curves at rest, and none for engines that do not close the budget
+  // scenes at rest have no curves, and neither have engines that do not close the budget
   if (f.curves.empty()) f.failures.clear();
   return described("{scene}-energy-drift", std::move(f), "scene"_a = runs[0].scene, "length"_a = length_text(runs),
                    "absent"_a = absent.empty() ? "" : fmt::format(" Not drawn: {}.", joined(absent)),

@@ -30,7 +30,8 @@ double order_at_end(const Curve& curve) {
   return std::log(before / after) / std::log(fine / coarse);
 }
 
-/// True for the loads that are drawn: lightest, middle and heaviest, and the largest at the tip. Others would coincide.
+/// True for the loads that are drawn: the lightest, middle and heaviest weight, and the largest load at the tip. Curves
+/// of other loads would coincide with these.
 bool is_drawn(const CantileverRow& row) {
   return row.tip_load > 0 ? row.tip_load == 5 : row.gamma == 0.1 || row.gamma == 5 || row.gamma == 50;
 }
@@ -97,7 +98,7 @@ Chart hanging(const std::vector<HangingStripRow>& rows, const std::vector<Hangin
                    "commit"_a = commit);
 }
 
-/// Snapshot of the drape, seen from `eye`: a scene that starts in that state.
+/// Snapshot of the drape, seen from `eye`. Its scene starts in the draped state.
 Snapshot draped(const std::vector<DrapedParticleRow>& rows, const std::string& name, const Vec3& eye,
                 const std::string& caption) {
   const DrapedDisc disc{static_cast<int>(rows.back().ring) - 1, 1};

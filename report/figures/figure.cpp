@@ -32,7 +32,7 @@ std::vector<Terminal> terminals_of(const FigureInfo& figure, double height) {
   return {{fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide,
                        height, single_quoted(svg_name)),
            ".svg"},
-          // font size 12 is scaled to the figure's, and the factor 0.75 makes gnuplot's points as large as the page's
+          // scale font size 12 to the figure's font size; the factor 0.75 makes gnuplot's points as large as the page's
           {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,12\" fontscale {:.4g} linewidth {:.3g} "
                        "pointscale {:.3g}",
                        figure.size.width, figure.size.width * height / wide, 0.75 * figure.size.font / 12,

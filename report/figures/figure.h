@@ -115,8 +115,8 @@ struct Drawing {
 /// Throws std::runtime_error with the figure's name if there is nothing to draw or a number is not finite.
 Drawing drawing_of(const Figure& figure);
 
-/// Writes and draws a figure next to style.gp; prints gnuplot's warnings to stderr. Throws std::runtime_error with the
-/// figure's name if gnuplot fails, or if a file is missing, empty or truncated.
+/// Writes and draws a figure; also writes style.gp. Prints gnuplot's warnings to stderr. Throws std::runtime_error with
+/// the figure's name if gnuplot fails, or if a file is missing, empty or truncated.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// End of a script: draws a figure of this height (units) on each terminal.

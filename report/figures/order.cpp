@@ -40,7 +40,7 @@ double error_over_difference(const Points2& errors, const Points2& own) {
 }
 
 std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
-  constexpr double close = 0.1;  // allows for the next order's contribution to the finest three steps on a smooth scene
+  constexpr double close = 0.1;  // allows for the next order's effect on the slope of the finest three steps
   std::vector<std::string> other;
   size_t seen = 0;
   double off = 0;
@@ -83,8 +83,8 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Curve curve{title_of(slopes, method), style_of(method), {}, true, true};
       Points2 errors = column_of(rows, method, &OrderRow::error),
               own = column_of(rows, method, &OrderRow::distance_to_finest);
-      // 4, because the ratio is 1 for a first-order rule with last errors 2 e and e, up to 2 if convergence starts
-      // slowly
+      // 4, because the ratio is 1 for a first-order rule (whose last two errors are 2 e and e), and at most 2 if
+      // convergence starts slowly
       const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
       // errors below the truth's error bar are unknown
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });

@@ -72,7 +72,7 @@ std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& sce
   f.caption = caption_of(scene, input.commit);
   f.tier = another_engine(facts);
   f.x.low = 0, f.x.high = scene.duration;
-  f.y.low = 1e-17;  // values below are round-off
+  f.y.low = 1e-17;  // lower values are round-off
   for (const MethodData& m : facts.methods) {
     if (!m.ok() || family_of(m.method).is_subject()) continue;
     Curve curve{m.method, style_of(m.method), points_of(table, m.method, "difference", true)};

@@ -46,7 +46,7 @@ bool is_far(double value) { return value != 0 && (std::abs(value) < 0.9e-4 || st
 std::string tick_text(double value) { return number_text(value, is_far(value)); }
 
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright) {
-  // tables read from elsewhere may contain any numbers; a range below 1e-12 of its values has no distinct tick labels
+  // tables from other sources may contain any numbers; a range of less than 1e-12 of its values has no distinct ticks
   if (logarithmic ? !std::isfinite(std::log10(low)) || !std::isfinite(std::log10(high))
                   : !std::isfinite(high - low) || !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
     throw std::runtime_error(fmt::format("no axis reaches from {:g} to {:g}", low, high));

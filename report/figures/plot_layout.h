@@ -60,7 +60,7 @@ class Sheet {
   double wide_, tall_, up_;
 };
 
-/// Returns the data. Throws std::runtime_error with their name if there is no row or a number is not finite.
+/// Returns the table. Throws std::runtime_error with the table's name if it has no row or a number is not finite.
 Table checked(Table data);
 
 std::string script_head(const FigureInfo& figure);

@@ -43,7 +43,7 @@ class RowsAgainstTheory {
       if (held > longest_) longest_ = held, by_ = row.method;
       return;
     }
-    // both limits lie beyond the same end of the map
+    // nothing to compare if both limits lie beyond the same end of the map
     if ((held == 0 && failed >= predicted) || (std::isinf(failed) && held <= predicted)) return;
     ++compared_;
     // a row that is stable at every step, or fails at every step, has no measured limit
@@ -80,7 +80,7 @@ class RowsAgainstTheory {
   }
 
  private:
-  // relative; the search leaves a bracket of 2 %, and slow growth is invisible in a short run
+  // relative tolerance: the search leaves a bracket of 2 %, and slow growth is invisible in a short run
   static constexpr double near = 0.05;
   std::string which_, by_;
   int compared_ = 0, apart_ = 0, none_hold_ = 0, some_hold_ = 0;

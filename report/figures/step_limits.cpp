@@ -79,8 +79,8 @@ struct Gathered {
   StepLimits::Row row;
   std::string without;                   // a scene without a stable step
   std::string bound;                     // scene with a limit
-  std::optional<double> every, refused;  // h omega, minimum over scenes. every: largest tried, if no step failed;
-                                         // refused: largest that the method accepts
+  std::optional<double> every, refused;  // h omega, minimum over scenes. every: longest step tried, if none failed;
+                                         // refused: longest step that the method accepts
   bool any() const { return !bound.empty() || !without.empty() || every || refused; }
 
   void add(const LimitRow& limit, double omega, const std::vector<StepLimits::SceneMark>& scenes) {

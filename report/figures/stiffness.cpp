@@ -92,7 +92,7 @@ constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
 
-/// The number comes first because a title that begins with a method would be shortened to its name.
+/// The number comes first because a title that begins with a method would be shortened to the method's name.
 std::string curve_title(const EffectiveStiffnessRow& row) {
   return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }

@@ -65,8 +65,9 @@ Findings adequacy_findings(const Facts& facts) {
   return out;
 }
 
-/// Power of the number of cells by which bend springs must stiffen; theory gives 4 for many cells. A line has fewer
-/// bend springs than cells, by 1/2 (none crosses the free end); a fit over the number of springs is closer to 4.
+/// Power of the number of cells by which bend springs must stiffen; theory gives 4 for many cells. The free length of n
+/// particles has n - 3/2 cells, but only n - 2 bend springs, because none crosses the free end. A fit over the number
+/// of springs is closer to 4.
 Findings bend_findings(const Facts& facts) {
   const auto of_cells = power_of(facts.rows, "", ScalingQuantity::bend_stiffness_for_droop);
   if (!of_cells) return {};

@@ -185,7 +185,7 @@ Findings method_answer(const Facts& facts) {
   const auto run = scene ? recommended_run(scene->name, recommended_part, facts.rows) : std::nullopt;
   if (!run) return {};
   const double to_percent = 100 / run->motion;
-  // compare only with mysim's run; the chapter compares other engines
+  // state a comparison only if the recommended run is mysim's; the chapter has the other comparisons
   const bool compared = family_of(run->method).is_subject() && !run->beside.empty();
   const auto next = std::ranges::min_element(run->beside, {}, &EngineBeside::times);
   return {{.rule = "answer-method",

@@ -58,8 +58,8 @@ Findings plane_findings(const Facts& facts) {
 }
 
 /// Positions after the comparison window: each other engine's final difference, next to the differences between mysim's
-/// own rules. Those share a contact rule, and therefore show how far positions are predictable. Uses only rules that
-/// have an order above one and are stable without damping (Heun adds energy).
+/// own rules. The latter show how far positions are predictable, because all rules of mysim share a contact rule. Uses
+/// only rules that have an order above one and are stable without damping (Heun adds energy).
 Findings contact_findings(const Facts& facts) {
   std::vector<std::string> scenes;
   for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);

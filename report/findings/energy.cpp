@@ -137,7 +137,8 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
-/// Damping that other engines add to an undamped spring, and energy that they gain if it acts by user-supplied forces.
+/// Damping that other engines add to an undamped spring; and energy that they gain if the spring is modelled by
+/// user-supplied forces.
 void damping_of_engines(std::vector<MatrixRow<false>> table, Findings& out) {
   std::erase_if(
       table, [](const MatrixRow<false>& row) { return family_of(row.method).is_subject() || !row.value || !row.bar; });

@@ -40,12 +40,12 @@ struct SceneData {
   double error_bar = 0;                       // m
   std::string truth;                          // derivation of the truth in one sentence
   std::optional<double> truth_until;          // s, if the truth ends early
-  // s; set if the truth is the converged contact rule of mysim: then `tier` is empty, and `error_bar`, `truth` and
-  // `truth_until` describe that rule
+  // s; set if the truth is the converged contact rule of mysim. In this case `tier` is empty, and `error_bar`, `truth`
+  // and `truth_until` describe that rule.
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;
-  /// Smallest round-off bound of the methods, which is that of double precision.
+  /// Smallest of the methods' round-off bounds: that of methods in double precision.
   std::optional<double> round_off() const;
   /// True if a run came within a millimetre of the sphere's contact surface.
   bool touched() const;

@@ -15,7 +15,7 @@ std::string residual_class(const EnergyRow& run) {
   const double worst = run.largest_residual.value_or(0), turned = run.turned_over.value_or(0);
   const bool lost = run.residual.value_or(0) < 0;
   if (run.verdict != Verdict::ok) return failure_class(run.verdict);
-  // round-off: 1e5 times the rounding of accumulated energies
+  // residuals below 1e5 times the rounding error of the accumulated energies are round-off
   if (worst < 1e-11 * turned) return residual_none;
   if (worst > 0.3 * turned) return lost ? "loses much of the energy" : "gains much energy";
   // growth in decades, relative to the first tenth of the run; growth proportional to time gives 1
@@ -74,7 +74,7 @@ std::string deviation_text(double off, double finest) {
 
 namespace {
 
-/// Deviation from theory up to which limits agree.
+/// Largest relative deviation from theory with which a limit counts as agreeing.
 constexpr double agrees_within = 0.01;
 
 struct StepLimitComparison {
@@ -83,7 +83,7 @@ struct StepLimitComparison {
   std::string how;            // for `apart`
 };
 
-/// Returns nullopt without theory, if the method refuses the scene, or if the predicted limit exceeds the steps tried.
+/// Returns nullopt if there is no theory, the method refuses the scene, or the predicted limit exceeds the steps tried.
 std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
   using enum StepLimitComparison::Kind;
   const PredictionKind theory = row.prediction;

@@ -64,7 +64,7 @@ struct StepLimitCounts {
   size_t coarse = 0;                // larger deviation, but the predicted limit is in the bracket
   double widest = 0;                // largest bracket of both kinds, relative to the stable step
   size_t apart = 0;
-  std::string method, where;  // the row with the largest deviation among the other rows
+  std::string method, where;  // the row with the largest deviation, if neither agreeing nor coarse
   size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Reads the texts of a file, whose lines before the first key are for editors.
+/// Reads the texts of a file. Skips the lines before the first key, which are notes for editors.
 void read_texts(const std::string& file, std::map<std::string, FindingText>& texts) {
   FindingText* text = nullptr;
   int number = 0;

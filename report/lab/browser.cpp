@@ -1,5 +1,5 @@
-// Replaces the system in a browser: there is one thread, one instruction set and no clock, and regular expressions are
-// those of the page. Exceptions end the instance.
+// Replaces the system in a browser: there is one thread, one instruction set and no clock, and the page evaluates
+// regular expressions. Exceptions end the instance.
 #include <cstdlib>
 #include <cstring>
 #include <exception>

@@ -113,7 +113,7 @@ void draw_scene(const Scene& scene, const MethodResult& shown, bool full, const 
 
 namespace {
 
-/// Removes the commit from a caption, because the page names it once.
+/// Removes the commit from a caption, because the page names the commit only once.
 std::string without_commit(std::string caption) {
   static const Pattern commit(
       "; commit [^ ;]*(, with uncommitted changes)?\\.| Commit [^ ;]*(, with uncommitted changes)?\\.");
@@ -223,7 +223,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// Draws the runs that the first screen shows of a scene, and the truth, next to each other.
+  /// Draws the truth of a scene, and the runs that the first screen shows, next to each other.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
@@ -249,7 +249,8 @@ class Assembly {
     }
     const std::vector<PageImage> images = images_of(s);
     if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
-    // all moments share the camera that fits the first one, at which the run has not yet diverged, moved back slightly
+    // all moments share one camera: it fits the first moment, at which the run has not yet diverged, and is moved back
+    // slightly
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, shots.front());
@@ -258,7 +259,7 @@ class Assembly {
       render::write_png(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
   }
 
-  /// Adds a set of runs, unless the page already has it. Returns false if it is empty.
+  /// Adds a set of runs, unless the page already has the set. Returns false if the set is empty.
   bool add_runs(const std::string& key, const std::string& only = "") {
     if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
     auto runs = key.empty() ? std::nullopt : runs_.take(key, only, page_.notes);
@@ -303,7 +304,7 @@ class Assembly {
   void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
     const std::string marks = part.scene->name + "-speed-accuracy";
-    if (part.take) add_runs(marks, part.take->method);  // if there is a chart of these runs, it already added them
+    if (part.take) add_runs(marks, part.take->method);  // adds nothing if a chart has added these runs
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
       const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
       return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();

@@ -81,7 +81,7 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
 /// A folded entry. Of the entries in the same fold, one is visible at a time.
 struct Folded {
   std::string fold, label;  // heading of the fold, text of the entry's button
-  size_t worth;             // index of its pattern in the list of the chapter
+  size_t worth;             // index of the entry's pattern in the chapter's list
   Chapter::Entry entry;
 };
 
@@ -186,7 +186,7 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
             {"step_lab", chapter.id == "stability" && !c.lab.empty() ? c.main_scene : ""},
             {"label", text(chapter.label)},
             {"answer", answers_of_chapter(chapter.id, c.findings)},
-            // if there are few scenes, the certificates leave space for text below
+            // true if there are few scenes, so that the certificates leave space for text below them
             {"short", certificates && leads.empty() && c.scenes.size() <= 4},
             {"parity", certificates ? parity_data(c.scenes) : Json()},
             {"choices", Json::array()},

@@ -26,7 +26,7 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
 
 namespace {
 
-/// Method and largest error of each run in a view. While it plays, the player shows the current error instead.
+/// Method and largest error of each run in a view. While the view plays, it shows the current error instead.
 Json readouts_data(const ScenePart& part) {
   const SceneData& facts = *part.facts;
   Json all = Json::array();

@@ -17,8 +17,8 @@ class PageRuns {
  public:
   explicit PageRuns(std::vector<RunFile> files) : files_(std::move(files)) {}
 
-  /// The set of runs with this key, without scene and stage: the runs of the method `only`, or, if it is empty, of all
-  /// methods. Runs too large for the page are omitted, with a note. Returns nullopt if no runs remain.
+  /// The set of runs with this key, without scene and stage: the runs of the method `only` or, if `only` is empty, of
+  /// all methods. Runs too large for the page are omitted, with a note. Returns nullopt if no runs remain.
   std::optional<PlayableRuns> take(const std::string& key, const std::string& only, std::vector<std::string>& notes);
   /// Positions that a scene's camera must show: those of the truth and of a completed run.
   std::vector<Points> seen_in(const Scene& scene) const;

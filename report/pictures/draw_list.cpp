@@ -58,8 +58,8 @@ std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   return normal;
 }
 
-/// A point of the surface half way from the triangle to the corners' tangent planes (Phong tessellation, Boubekeur and
-/// Alexa 2008), which follows a ball to second order.
+/// A point of the curved surface: half way from the triangle to the corners' tangent planes (Phong tessellation,
+/// Boubekeur and Alexa 2008). The surface follows a ball to second order.
 ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector3f& part) {
   ClothVertex c{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,7 @@ void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& 
     }
 }
 
-/// Returns the threads that are not an edge of a triangle.
+/// Adds the triangles. Returns the threads that are not edges of triangles.
 std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));
@@ -105,8 +105,8 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
       const int i = triangle[k];
       corner[k] = {placed.at(i), normal[std::size_t(i)], Eigen::Vector3f::Constant(no_thread), placed.position(i)};
     }
-    // the distance to the edge opposite to corner k is linear: it is the triangle's height at k, and 0 at the other
-    // corners
+    // the distance to the edge opposite to corner k is linear: it equals the triangle's height at corner k, and 0 at
+    // the other corners
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3], j = triangle[(k + 2) % 3];
       loose.erase(sorted(i, j));

@@ -61,8 +61,8 @@ class Page {
     cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
     return extents.x_advance / 100;
   }
-  /// The centre of the first line is at height y. Lines begin at x if `before` is 0, and are centred there if it is
-  /// 0.5. `size` is in pixels.
+  /// The centre of the first line is at height y. Lines begin at x if `before` is 0, and are centred at x if
+  /// `before` is 0.5. `size` is in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
     for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);

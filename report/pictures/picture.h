@@ -93,7 +93,7 @@ void write_png(const Picture& picture, const std::filesystem::path& file);
 void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
                  const std::filesystem::path& pdf);
 
-/// Width / height of a panel without the space for text, which fit_view() needs as its aspect. Depends on the size, the
+/// Aspect (width / height) of a panel without the space for text, as fit_view() requires it. Depends on the size, the
 /// rows, and the presence of titles, subtitles, a scale and a legend, but not on bodies or view.
 double panel_aspect(const Picture& picture);
 

@@ -39,7 +39,7 @@ std::vector<double> mean_at_particles(const std::vector<Spring>& links, const st
   return sum;
 }
 
-/// Smallest 1, 2 or 5 times a power of ten that is not below the value.
+/// Smallest number not below the value that is 1, 2 or 5 times a power of ten.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -48,7 +48,7 @@ double round_up(double value) {
   return value;
 }
 
-/// In mode difference, the distance from `base` determines the colours.
+/// In mode `difference`, the distance from `base` determines the colours.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -224,7 +224,7 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// Motions that determine view and scale. Excludes blow-ups, next to which others would be too small and too pale.
+/// Motions that determine view and scale. Excludes blow-ups, which would make other motions too small and too pale.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -323,7 +323,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (shown && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // for long steps, show methods that suit them, and one that fails, for comparison
+  // if the step is long, show methods that suit long steps and, for comparison, a method that fails
   if (find_method(scene.method).implicit)
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),

@@ -19,15 +19,15 @@ struct Shot {
   double at = -1;  // s; negative: the end
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
-  double text = 0;  // height of letters, pixels; 0: derived from the size. Otherwise rows and height follow from the
-                    // panels
+  double text = 0;  // height of letters, pixels; 0: derived from the size. If it is given, the panels determine rows
+                    // and height
 };
 
 /// Default shot for a scene's card in the report.
 Shot usual_shot(const Scene& scene, bool full);
 
 /// Results side by side in one view. Omits results without frames; shows a failed run at its last finite frame, with a
-/// note. In mode difference, compares all methods with the first one. Throws InputError if nothing can be shown.
+/// note. In mode `difference`, compares all methods with the first one. Throws InputError if nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 
 /// View and scale that make pictures comparable.

@@ -1,6 +1,6 @@
 // Shaders of all materials. A #define chooses one of them, because software GL pays for every branch: CLOTH, ROD, TRAIL
-// (a rod without light), GROUND, or SUM (adds a pass to the sum). Others are VALUES (cloth coloured by value), SHADOW
-// (depth only), and VERTEX or FRAGMENT.
+// (a rod without light), GROUND, or SUM (adds a pass to the sum). Further #defines: VALUES (cloth coloured by value),
+// SHADOW (depth only), and VERTEX or FRAGMENT.
 
 #ifdef VERTEX
 uniform mat4 to_clip;

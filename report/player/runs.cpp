@@ -21,7 +21,7 @@ constexpr int most_frames = 150, most_frames_of_mark = 30, fewest_frames = 25;
 constexpr int most_places = most_frames * 64 * 64;  // frames x particles
 constexpr double largest_number = 65535;
 
-/// Number of lattice points per size of the scene; if it is infinite, the lattice is as fine as 16 bits allow.
+/// Number of lattice points per size of the scene; infinity: the lattice is as fine as 16 bits allow.
 constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell = 1024;
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
@@ -41,8 +41,8 @@ Frames every(const Trajectory& path, int stride) {
 
 double distance_from(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
-/// Truncates a failed run where a coordinate has moved by three times the scene's size or the true motion's largest
-/// displacement, whichever is larger, because no camera shows more.
+/// Truncates a failed run where a coordinate has moved by three times the scene's size (or by three times the largest
+/// displacement of the true motion, if that is larger), because no camera shows more.
 void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   double reach = scene.size();
   if (truth)
@@ -74,7 +74,7 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   return json;
 }
 
-/// Times in s: the first and the last if they are equidistant, otherwise all.
+/// Times (s): only the first and the last one if the times are equidistant, otherwise all.
 Json times_json(const std::vector<double>& t) {
   const double apart = (t.back() - t.front()) / double(std::max<size_t>(1, t.size() - 1));
   for (size_t i = 0; i < t.size(); ++i)
@@ -127,8 +127,8 @@ int thinned(const Scene& scene, int stride, int most) {
   return stride * least;
 }
 
-/// JSON of a run from its beginning, or, if the run failed and belongs to a mark of a chart, of its last pictures. Null
-/// if there is no second frame.
+/// JSON of a run. If the run failed and belongs to a mark of a chart, contains only its last pictures. Null if there is
+/// no second frame.
 Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const RecordedRun& run, bool own, double unit,
                std::string& bytes) {
   const bool failed = run.outcome.verdict != Verdict::ok, last = failed && !own;
@@ -145,9 +145,9 @@ Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const Reco
   return json;
 }
 
-/// JSON of a map's cells as one run: for each cell, the last picture in which no particle is farther from its position
-/// at rest than twice the scene's size, with the picture's time. If there is no such picture, the cell has the state of
-/// rest and no time.
+/// JSON of a map's cells as one run. For each cell, contains a picture and its time: the last picture before a particle
+/// is farther from its position at rest than twice the scene's size. If there is no such picture, the cell has the
+/// state of rest and no time.
 Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   std::vector<Points> pictures;
   Json times = Json::array();

@@ -96,7 +96,7 @@ export const boxOfLines = (lines: readonly string[], left: number, baseline: num
   bottom: baseline + 0.24 * letters + lineHeight * (lines.length - 1)
 });
 
-/** Boxes for a label at the ends of its curve and along it, where the label is nearest to its own curve. */
+/** Boxes for a label at the ends of its curve and along it. Boxes nearer to another curve have infinite cost. */
 export function* boxesBeside(name: string, paths: readonly Pair[][], others: readonly Pair[]) {
   const width = widthOf(name, true), own = paths.flat();
   const at = (left: number, middle: number, penalty: number) => {
@@ -122,7 +122,7 @@ export function* boxesBeside(name: string, paths: readonly Pair[][], others: rea
   }
 }
 
-/** Boxes for lines of text around a point, at growing distances; a leader line can join each box's near side to it. */
+/** Boxes for text around a point, at growing distances; a leader line can join a box's near side to the point. */
 export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = false) {
   const high = lineHeight * (lines.length - 1);
   for (let away = 18; away < 110; away += 8)
@@ -138,7 +138,7 @@ export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = fals
 export const nearestOf = (box: Box, [x, y]: Pair):
     Pair => [Math.max(box.left - 2, Math.min(x, box.right + 2)), Math.max(box.top, Math.min(y, box.bottom))];
 
-/** Moves heights within the limits until they are at least `apart` from each other, as little as possible. */
+/** Moves heights as little as possible, and within the limits, until they are at least `apart` from each other. */
 export function pushedApart(wanted: readonly number[], low: number, high: number, apart: number): number[] {
   const order = wanted.map((_, i) => i).sort((a, b) => wanted[a] - wanted[b]), places = order.map(i => wanted[i]);
   for (let pass = 0; pass < 200; ++pass)

@@ -285,7 +285,7 @@ export class Simulation {
 
   /**
    * Growing mode of a failed run, with a longest arrow of 1. If the run failed late, its last finite velocities replace
-   * the mode, because a repetition would delay a frame.
+   * the mode, because repeating the run would delay a frame.
    */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
@@ -295,8 +295,8 @@ export class Simulation {
   }
 
   /**
-   * Repeats the run on a copy, and returns the change of velocities in one step, with the positions after it. The step
-   * is the last one before the change would move a particle by a tenth of the shortest spring per step, because later
+   * Repeats the run on a copy, and returns the change of velocities in one step, and the positions after that step. The
+   * step is the last one before the change moves a particle by a tenth of the shortest spring per step, because later
    * growth is not linear. `mode` is null if the search exceeds the budget (ms).
    */
   growingMode(budget = Infinity) {
@@ -342,8 +342,8 @@ export class Simulation {
   }
 
   /**
-   * The present scene, with the run's method and step; changes by hand are in [start]. The command line computes the
-   * same bits from it.
+   * The present scene, with the run's method and step; changes by hand are in [start]. From this text, the command
+   * line computes the same bits.
    */
   sceneText() {
     const {rule, step, tolerance} = this.run, adaptive = this.lab.stepperOf(rule)?.adaptive;

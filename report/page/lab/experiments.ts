@@ -81,7 +81,7 @@ export interface GuideStep {
   watch?: (r: Reading, seen: Seen) => void;  // records observations
   done: (r: Reading, seen: Seen) => boolean;
   // further numbers for the texts of the step
-  shown?: (before: Before) => Values;           // for its question and task
+  shown?: (before: Before) => Values;           // for the question and the task
   values?: (r: Reading, seen: Seen) => Values;  // for the explanation
   arrows?: (r: Reading) => Mode;                // motion that is shown at the end
 }
@@ -128,7 +128,7 @@ function sharpestFold(x: Places, columns: number, rows: number) {
   return Math.acos(Math.max(-1, least)) * 180 / Math.PI;
 }
 
-/** Fraction of the pairs at a distance of two cells that move in opposite directions, weighted by motion. */
+/** Among pairs of particles two cells apart: the fraction that moves in opposite directions, weighted by motion. */
 function opposedPart(mode: Float64Array, columns: number, rows: number) {
   let against = 0, all = 0;
   const pair = (p: number, q: number) => {

@@ -80,7 +80,7 @@ export class Hand {
     return front.sort((a, b) => a.depth - b.depth)[0] ?? null;
   }
 
-  /** The point under a pointer, in the plane through a particle that is parallel to the picture. */
+  /** The point under a pointer, in the plane that is parallel to the picture and contains a particle. */
   private under({clientX, clientY}: At, {panel}: Hit, from: Vec3): Vec3 {
     const stage = this.act.stage(), box = this.layer.getBoundingClientRect(), at = stage?.project(from, panel);
     if (!stage || !at) return from;

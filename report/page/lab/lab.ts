@@ -19,7 +19,7 @@ import {LiveRun, messageOf} from './live_run';
 import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
 import {labLanguage, questionInLanguage, say} from './words';
 
-const longestFrame = 120;  // ms; frames count as no longer than this
+const longestFrame = 120;  // ms; longer frames count as this long
 const pauseAtEnd = 1200;   // ms, pause before a looping run restarts
 
 export class LiveLab extends LabPicture {
@@ -347,7 +347,7 @@ export class LiveLab extends LabPicture {
           this.methods = this.methods?.slice(0, 1) ?? null;
           this.reload();
         },
-    /** Changes numbers of the scene, and opens it once the slider has rested for a moment (longer if it is large). */
+    /** Changes numbers of the scene. Opens the scene when the slider has rested briefly (longer for large scenes). */
     numbers:
         (changes: Changes, done: boolean) => {
           this.toml = withNumbers(this.toml, changes);

@@ -15,7 +15,7 @@ import {MethodSpec} from './scene_text';
 import {say} from './words';
 
 const previewBudget = 150;  // ms, to estimate how far a scene moves
-const slowDrawing = 40;     // ms between frames, without scripts; above this, drawing is slow
+const slowDrawing = 40;     // ms between frames, minus the time of scripts; above this, drawing is slow
 const coarseRatio = 0.7;    // fraction of the pixels per side for slow drawing
 
 /** An element that can release the context of its stage. */
@@ -34,7 +34,7 @@ export abstract class LabPicture extends LabRuns {
   seen = true;
   drawsSlowly = false;
   private colourTop = 1;
-  private drawing = 0;   // ms between frames, without scripts
+  private drawing = 0;   // ms between frames, minus the time of scripts
   private scripted = 0;  // ms of scripts in the last frame
 
   /** Makes a new stage if the numbers of particles or springs differ. */

@@ -1,4 +1,4 @@
-// Runs with a common clock, followed by the truth, for <live-lab> (lab.ts).
+// Runs with a common clock, and the truth at the same times, for <live-lab> (lab.ts).
 
 import {EngineScene, Lab, LabError, solidsOf} from './engine';
 import {Hand} from './hand';
@@ -155,7 +155,8 @@ export abstract class LabRuns extends HTMLElement {
 
   /**
    * Compares runs with the truth, and records samples. If the truth exceeds the frame's budget, `pending` makes the
-   * clock wait for it, and `pace` slows the clock down. If that lasts too long, drops the error bar, then the truth.
+   * clock wait for it, and `pace` slows the clock down. If that lasts too long, drops first the error bar, then
+   * the truth.
    */
   sample() {
     // at the start no truth is needed; while a slider moves, none is started

@@ -29,7 +29,7 @@ interface State {
   v: Float64Array;
 }
 
-/** Positions between two states: a cubic through both with their velocities, or a line without velocities. */
+/** Positions between two states: on a cubic through both, or on a straight line if velocities are missing. */
 function between(from: State, to: State, t: number, into: Float64Array) {
   const h = to.t - from.t, u = h > 0 ? Math.min(1, Math.max(0, (t - from.t) / h)) : 1, a = from.x, b = to.x;
   if (u === 1)
@@ -137,7 +137,7 @@ export class LiveRun {
   get end() { return this.offset + this.sim.scene.duration; }
   /** Simulated time / computing time, up to now. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-  /** With balls or planes, the distance from the truth is not an error, as both use the same contact rule. */
+  /** With balls or planes, the distance from the truth is not an error, because run and truth share a contact rule. */
   get errorWord() { return solidsOf(this.sim.scene) ? 'difference' : 'error'; }
 
   /** Steps up to a time (s), but computes for at most `budget` ms. Returns false if that is not enough. */
@@ -282,8 +282,8 @@ class Follower {
  * The truth is computed by a fourth-order rule with at most a quarter of its critical step (if there is none: a quarter
  * of the run's step, or a twentieth for first-order scenes), and again with twice that step. If no fourth-order rule
  * supports the scene, the run's own stepper is used with a hundredth of its step. The error bar is 3 / (2^4 - 1) of the
- * difference between the two runs; with contact, or with the run's own stepper, it is the whole difference. The steps
- * divide that of the first method, so that their times coincide.
+ * difference between the two runs; with contact, or with the run's own stepper, it is the whole difference. Both steps
+ * divide the step of the first method, so that the times coincide.
  */
 export class Truth {
   spec: MethodSpec = {method: ''};

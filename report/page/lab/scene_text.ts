@@ -64,7 +64,7 @@ export function numberAt(toml: string, path: string) {
   return Array.isArray(value) ? norm(value) : value;
 }
 
-/** Effect of setting a number to zero: comments out its line or its whole section, or is written as a number. */
+/** Effect of setting a number to zero: its line or its whole section is commented out, or the zero is written. */
 const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :

@@ -182,7 +182,7 @@ export class Motion {
 
   /**
    * Coordinate differences (m) between two motions, interpolated between the frames that both have. Differences of
-   * interpolated positions would err by more than two accurate runs differ.
+   * interpolated positions would have errors larger than the difference between two accurate runs.
    */
   apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
     const {times} = this.times.length < other.times.length ? this : other;

@@ -21,7 +21,7 @@ vec4 point(int i) {
 
 export const clothVertex = `
 uniform sampler2D normals;
-uniform float nearer;  // lifts threads off the surface, as a part of the depth
+uniform float nearer;  // distance by which threads are lifted off the surface, as a fraction of the depth
 void main() {
   vec4 p = point(gl_VertexID);
   int wide = textureSize(points, 0).x;
@@ -87,7 +87,7 @@ out vec4 result;
 vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
 vec4 shown(vec3 light) { return vec4(pow(light, vec3(1.0 / 2.2)), 1); }
 
-// part of the key light that arrives: samples on a spiral, rotated from pixel to pixel
+// fraction of the key light that arrives, from samples on a spiral, which is rotated from pixel to pixel
 float lit(vec3 p, float spread) {
   if (shadowed < 0.5) return 1.0;
   vec3 q = (to_key * vec4(p, 1)).xyz * 0.5 + 0.5;
@@ -121,7 +121,7 @@ vec3 colour_of(vec3 own) {
 }
 `;
 
-// the method's tint, the lighter the more the cloth faces the light
+// the method's tint, lighter where the cloth faces the light
 export const clothFragment = coloured + `
 uniform vec3 ramp[3];
 void main() {

@@ -302,7 +302,7 @@ export class BaseStage<P extends Panel> {
   }
 }
 
-/** A stored run, or with `other`, its difference from that run in colours up to `top` (m). */
+/** A stored run; or, if `other` is given, its difference from that run, in colours up to `top` (m). */
 export interface View {
   motion: Motion;
   look: Pick<Look, 'plain'|'ramp'>;

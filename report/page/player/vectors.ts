@@ -32,7 +32,7 @@ export function times(a: Numbers, b: Numbers) {
   return m;
 }
 
-/** Clip space for an eye at the origin that looks along -z; `tangent` of half the vertical field of view. */
+/** Clip space for an eye at the origin that looks along -z; `tangent`: that of half the vertical field of view. */
 export function perspective(tangent: number, aspect: number, near: number, far: number) {
   const depth = near - far;
   return [
@@ -41,7 +41,7 @@ export function perspective(tangent: number, aspect: number, near: number, far: 
   ];
 }
 
-/** Sums of triangle normals at each corner, twice as long as the areas; `stride`: numbers per point. */
+/** Sums of triangle normals (of twice the triangle's area) at each corner; `stride`: numbers per point. */
 export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Array|Float64Array, stride: number) {
   sums.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
