@@ -108,7 +108,7 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
   EXPECT_EQ(number(t, 1, "times mysim"), 2);
   EXPECT_EQ(word(t, 2, "engine"), "bullet");
   EXPECT_EQ(number(t, 2, "times mysim"), 30);
-  // times are known to within 0.9 to 1.2 of their value: 60 x 0.9 / (2 x 1.2), and 60 x 1.2 / (2 x 0.9)
+  // each time may be 0.9 to 1.2 times its stated value: 60 x 0.9 / (2 x 1.2), and 60 x 1.2 / (2 x 0.9)
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim low"), 22.5);
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim high"), 40);
 }
@@ -735,7 +735,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
     EXPECT_FALSE(rows.back().own);
     const Row& last = rows[3];
     EXPECT_DOUBLE_EQ(last.step, scene->step / 2);
-    // order 1: errors e and e/2 have distance e/2; with a different force law, the error stays while the distance falls
+    // order 1: errors e and e/2 differ by e/2; with a different force law, the distance falls but the error does not
     if (same_law) {
       EXPECT_NEAR(last.error / *last.own, 2, 0.1);
       EXPECT_NEAR(slope(rows[3].error, rows[4].error), 1, 0.05);
@@ -743,7 +743,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
       EXPECT_GT(last.error / *last.own, 8);
       EXPECT_NEAR(rows[3].error / rows[4].error, 1, 0.1);
     }
-    // order 1: errors 4 e, 2 e and e have distances 3 e and e from the finest run
+    // order 1: errors are 4 e, 2 e and e, and distances from the finest run are 3 e and e
     EXPECT_NEAR(*rows[2].own / *rows[3].own, 3, 0.1);
     // no order is stated for errors due to a different force law
     EXPECT_EQ(result.table("order-slopes")->rows.size(), same_law ? 1u : 0u);
@@ -776,7 +776,7 @@ TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
   TableSet result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
-  // order 2: here the distance is the difference of the errors
+  // order 2: the distance from the finest run is the difference of the errors
   for (int i = 2; i + 1 < 7; ++i) EXPECT_NEAR((rows[i].error - rows.back().error) / *rows[i].own, 1, 0.02);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mysim/dopri5, odeint/dopri5: their steps follow a tolerance"));

@@ -197,8 +197,8 @@ TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
   EXPECT_EQ(ingredients_text(""), "nothing");
 }
 
-/// Provides runs of methods with their costs, on a scene whose motion is 1 m, and a row for the cheapest run within 1
-/// %.
+/// Provides runs of methods with their costs, on a scene whose motion is 1 m, and a row for the cheapest run with an
+/// error of at most 1 %.
 class Take : public testing::Test {
  protected:
   /// Adds a run. A successful run is accompanied by another with half the step.

@@ -199,7 +199,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     answers += finding["topic"].text() == "answer";
   }
   EXPECT_GE(answers, 3);
-  // certificates contain what was read back from the engines' memory
+  // certificates contain the values that were read back from the engines' memory
   EXPECT_NE(read(folder_ / "one/data/certificates.csv").find("mine,bullet/deformable-explicit,"), std::string::npos);
   EXPECT_NE(read(folder_ / "one/data/dictionary.csv").find("certificates,"), std::string::npos);
   EXPECT_EQ(call({"report", "--verify", "one"}).status, 0);
@@ -225,7 +225,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     EXPECT_FALSE(fs::exists(folder_ / "never"));
   }
 
-  // two runs write the same data, SVG, PNG and PDF, except for costs
+  // except for costs, two runs write the same data and the same SVG, PNG and PDF files
   int compared = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "one")) {
     const fs::path file = entry.path(), other = folder_ / "two" / fs::relative(file, folder_ / "one");

@@ -87,11 +87,11 @@ TEST_P(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
     ASSERT_EQ(run.status, 0) << run.err;
     const Points end = read_npy(folder_ / "chain/trajectory.npy", 7, 7, 4).back();
     // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), and one pass from the pin downwards corrects this.
-    // When it corrects an edge with j particles below, it leaves the excess length e that satisfies k d^2 e / m = j s.
-    // The rest of the pass then pulls the lower end down by (j - 1) s.
+    // An edge with j particles below it is left with the excess length e that satisfies k d^2 e / m = j s. The rest of
+    // the pass pulls the lower end of the edge down by (j - 1) s.
     const double d = h / n, s = g * d * d * (1 - gamma * d), soft = m / (k * d * d);
     const double sag = (3 * soft + 2) * s + (2 * soft + 1) * s + soft * s;
-    // each sub-step rounds coordinates three times, by 3e-8 m; like s, this acts on edges above 1, 2 and 3 particles
+    // each sub-step rounds coordinates three times, by 3e-8 m; this adds to s, on edges above 1, 2 and 3 particles
     const double rounding = 6 * 3 * 3e-8 * soft;
     EXPECT_NEAR(-1.5 - end(1, 3), sag, rounding) << n;
     EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k))

@@ -192,11 +192,11 @@ const labUse = (() => {
 
 
   /**
-   * A scene for each rule. `above` and `below` are fractions of its critical step. Explicit Euler's critical step is
-   * gamma / omega^2: for a shipped cloth 1.3 µs, or 2.4 million steps, and beyond it vibrations grow by only gamma / 2
-   * per second. Its cloth is therefore 50 times softer and has ten times the drag, the limits of the sliders. The
-   * trapezoidal rule uses the same cloth, because its growth beyond the critical step is slow too. Without drag both
-   * have no stable step, so that every step is above. With a single sample only the last step is shortened.
+   * A scene for each rule. `above` and `below` are fractions of the rule's critical step. For explicit Euler this step
+   * is gamma / omega^2, or 1.3 µs on a shipped cloth (2.4 million steps), and above it vibrations grow by only
+   * gamma / 2 per second. Explicit Euler therefore gets a cloth at the sliders' limits: 50 times softer, with ten times
+   * the drag. So does the trapezoidal rule, which also grows slowly. Without drag, both rules are unstable at every
+   * step. With a single sample only the last step is shortened.
    */
   const gentle = /^(explicit-euler|trapezoidal)$/;
   const softened = k => ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k, 'drag.gamma': 40});

@@ -120,7 +120,7 @@ TEST(MeshFiles, ABallIsClosedAndRoundAndSeenFromOutside) {
     for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) EXPECT_TRUE(edges.insert(edge).second);
   for (const auto& [a, b] : edges) EXPECT_TRUE(edges.count({b, a}));
   EXPECT_EQ(x.cols() - edges.size() / 2 + shape.triangles.size(), 2u);  // Euler's characteristic
-  // facets lie below the sphere by a distance of second order in the angle pi / 32, in both directions
+  // facets dip below the sphere by a distance of second order in the angle pi / 32 between neighbouring vertices
   const double ball = 4 * std::numbers::pi / 3 * std::pow(radius, 3), dip = std::pow(std::numbers::pi / 32, 2);
   EXPECT_LT(volume_inside(x, shape.triangles), ball);
   EXPECT_GT(volume_inside(x, shape.triangles), ball * (1 - dip));

@@ -1,5 +1,5 @@
-// Tests reports that are killed, that run on a full disk, two at once, or under other locales: earlier results remain,
-// and bytes are identical.
+// Tests reports that are killed, that meet a full disk, that run two at a time, or that run under other locales:
+// earlier results remain, and bytes are identical.
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
   ASSERT_TRUE(whole(folder_ / "out"));
   std::mt19937 random(22);
   int killed = 0;
-  // one kill in each tenth of the run: gaps are at most a fifth of the run, as expected for twenty random moments
+  // one kill in each tenth of the run, so that gaps between kills are at most a fifth of the run
   for (int trial = 0; trial < 10; ++trial) {
     const double moment = std::uniform_real_distribution<>(trial, trial + 1)(random) / 10 * 1.05 * seconds;
     killed += start({"timeout", "-s", "KILL", fmt::format("{:.3f}", moment)}, report("out")).status == 128 + 9;

@@ -1,4 +1,4 @@
-// A self-test in real time with frames. The page's load event, after which the browser writes the page, waits for it.
+// A self-test in real time with frames. The browser writes the page after the load event, which waits for the test.
 
 /** Adds the page's errors to the complaints. An open iframe delays the load event. */
 async function inRealTime(act) {

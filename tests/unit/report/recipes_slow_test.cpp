@@ -1,4 +1,4 @@
-// Commands in the documentation print the output that it shows, if they run one after the other in an empty folder.
+// The documentation's commands, run one after the other in an empty folder, print the output that it shows.
 // With CROSSCHECK_INSTALLED=/usr, the installed pages, program and Python package are tested.
 
 #include <fmt/format.h>

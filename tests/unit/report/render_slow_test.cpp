@@ -58,7 +58,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
 }
 
 TEST(Render, BothQualitiesShowTheSameScene) {
-  // positions are the same; the change of light and shadow is much smaller than the effect of the bodies
+  // bodies are at the same positions; light and shadow change the image much less than the bodies do
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
   const Image fast = draw(small_picture(Quality::fast)), still = draw(small_picture(Quality::still));
@@ -179,7 +179,7 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   ASSERT_EQ(lettered.height, 270);
   EXPECT_GT(changed(lettered, draw(picture)), 0.01);
 
-  // long titles shrink, so that the column between the panels and the rims stay clear
+  // long titles shrink, so that no letter is at the rims or between the panels
   for (int y = 0; y < 28; ++y) {
     for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
   }

@@ -71,8 +71,8 @@ TEST(Map, FailsWhereTheoryDrawsTheLineAndHardlyChangesInRunsTenTimesLonger) {
       for (size_t i = 0; i < map.rows.size(); ++i) {
         const double h = std::get<double>(map.at(i, "step")),
                      limit = std::get<double>(limits.at(i / 9, "predicted limit"));
-        // without drag, the trapezoidal rule grows by (h omega)^4 / 8 per step, which is too little to measure if the
-        // step is short
+        // without drag, the trapezoidal rule's amplitude grows by (h omega)^4 / 8 per step, which is too little to
+        // measure if the step is short
         const bool slow = limit == 0 && std::string(name) == "mysim/trapezoidal";
         if (!slow && std::abs(h / limit - 1) > 0.02) {
           EXPECT_EQ(std::get<std::string>(map.at(i, "verdict")) == "ok", h < limit) << h << " against " << limit;
@@ -189,7 +189,7 @@ TEST(Limits, AreRowsWithTheWidthOfTheirBracket) {
   for (const auto& [rows, widest] : {std::pair{&fine, 0.005}, std::pair{&coarse, 0.5}}) {
     const Table& t = *rows->table("stability");
     const double precision = std::get<double>(t.at(0, "precision"));
-    // bisection of the logarithm stops below `widest`; the search before it climbs in steps of a tenth
+    // bisection of the logarithm stops below `widest`; the search before the bisection climbs in steps of a tenth
     EXPECT_GT(precision, std::min(widest / 2.1, 0.09));
     EXPECT_LE(precision, widest);
     EXPECT_DOUBLE_EQ(precision, std::get<double>(t.at(0, "failed")) / std::get<double>(t.at(0, "held")) - 1);
