@@ -15,7 +15,7 @@ struct BenchSuite;
 
 /// One comparison: merges all rows that differ only in mysim's instruction set.
 struct BenchLine {
-  std::string work, scene, subject;  // subject: the peer; for the naive loop, mysim's kernel instead
+  std::string work, scene, subject;  // subject: the peer, or mysim's kernel if the peer is the naive loop
   std::string label;
   std::string detail;  // the two times of the ratio (best instruction set), or the reason why there is no ratio
   std::optional<Timing> best, baseline;  // ratios

@@ -98,7 +98,7 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// Draws violations without a known cause: at the time of the violation or, if there is none, at the end of the run.
+/// Draws violations without a known cause: at the time of the violation or, if no time is known, at the end of the run.
 /// Omits violations that cannot be drawn.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,

@@ -38,7 +38,7 @@ bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<co
   return true;
 }
 
-/// Returns false if the program fails, and then prints the end of its output.
+/// Returns false if the program fails. In that case, prints the end of the program's output.
 bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
               const std::string& what) {
   const ProgramResult result = run_program(argv, folder);

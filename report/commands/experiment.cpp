@@ -32,7 +32,7 @@ std::vector<std::string> files_of(const TableSet& rows, const std::vector<Upstre
   return files;
 }
 
-/// Writes files into `folder`. Prints their final paths, because the folder will be moved to `out`.
+/// Writes files into `folder`. Prints the paths that these files will finally have in `out`.
 void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& texts, const Provenance& lines,
                      const std::filesystem::path& folder, const std::filesystem::path& out) {
   write_tables(rows, lines, folder);

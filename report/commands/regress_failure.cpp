@@ -176,7 +176,7 @@ std::optional<Figure> difference(const FailureDetails& e, const Provenance& line
   return f;
 }
 
-/// Draws both shapes in one view, coloured by their distance if it is large enough to see.
+/// Draws both shapes in one view, coloured by their distance if the distance is large enough to see.
 std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder) {
   if (!e.new_result || e.new_result->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
   Shot shot;

@@ -79,7 +79,7 @@ using fmt::literals::operator""_a;
 std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values = {});
 Chart described_chart(const std::string& key, AnyFigure figure, fmt::format_args values);
 /// Chart of a figure. Texts from texts.md replace the figure's own. A figure with neither curves nor failures is
-/// dropped; its caption then becomes the chart's text, if the chart has none.
+/// dropped. If the chart has no text, the caption of the dropped figure becomes the chart's text.
 template <class... Values>
 Chart described(const std::string& key, AnyFigure figure, const Values&... values) {
   return described_chart(key, std::move(figure), fmt::make_format_args(values...));
@@ -102,12 +102,12 @@ std::vector<T> distinct(const std::vector<Row>& rows, T Row::*member) {
 
 /// The common part of the chart's figure, or null if the chart has no figure.
 const FigureInfo* figure_info(const Chart& chart);
-/// Writes and draws the chart's figure, if it has one, like draw().
+/// Writes and draws the chart's figure, as draw() does. Does nothing if the chart has no figure.
 void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// Writes the data and the script of the chart's figure: NAME.csv and NAME.gp.
 void write_figure_data(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
-/// The method at the start of a title, or the whole title if it is a method; otherwise empty.
+/// The method with which a title begins; empty if the title does not begin with a method.
 std::string method_in(const std::string& title);
 std::vector<std::string> methods_in(const Chart& chart);
 

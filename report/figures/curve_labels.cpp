@@ -88,8 +88,8 @@ void CurvePlot::fill_board() {
       board_->add_line(place(g.at, y_low_), {place(g.at, y_low_).x, box_.top});
 }
 
-/// Places a label at or along its curve, or next to one of its crosses, where it covers nothing and is nearer to its
-/// own curve than to others.
+/// Places a label where it covers nothing and is nearer to its own curve than to others: at the end of the curve, along
+/// the curve, or next to one of the crosses.
 bool CurvePlot::place_beside(const std::string& words, const std::string& colour,
                              const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
                              const std::vector<std::vector<Place>>& others) {
@@ -189,7 +189,7 @@ bool CurvePlot::place_names() {
   return true;
 }
 
-/// Places names to the right of the plot, at the heights where their curves end, or pushed apart.
+/// Places names to the right of the plot, at the heights where their curves end. Moves names apart that would overlap.
 void CurvePlot::column_of_names() {
   struct Entry {
     size_t part;

@@ -122,7 +122,7 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
 Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 1e-9, f.y.high = 3;
-  constexpr double omega = 10;  // rad/s, the oscillator of the table
+  constexpr double omega = 10;  // rad/s, frequency of the oscillator in the table
   double worst = 0;
   size_t checked = 0;
   std::vector<std::string> damped;  // methods that damp in theory, in the order of the table

@@ -90,7 +90,7 @@ struct OnPage {
     std::string name, more;
   };
   std::optional<Take> take;  // recommended run, drawn with a ring
-  bool flat = false;         // lower, for charts next to pictures
+  bool flat = false;         // true: a lower chart, to be shown next to pictures
 };
 
 struct Figure : FigureInfo {

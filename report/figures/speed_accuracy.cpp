@@ -1,5 +1,5 @@
 // Error against cost, in evaluations and in CPU time: all methods, the Pareto front, the truth's error bar and failed
-// runs. Each figure comes with its cheapest methods.
+// runs. The finding of each figure names the methods on the front.
 
 #include <fmt/ranges.h>
 

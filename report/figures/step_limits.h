@@ -20,7 +20,7 @@ struct StepLimits : FigureInfo {
   };
   struct Row {
     double held = 0;    // h omega of the longest stable step
-    bool open = false;  // no step failed
+    bool open = false;  // true: no step failed
     std::string words;  // next to the bar
     std::vector<Mark> marks;
     std::string measured, predicted;  // ms, on the scene named by `columns_of`

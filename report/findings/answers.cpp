@@ -222,7 +222,7 @@ Findings failed_runs_answer(std::span<const SceneData> data) {
 }
 
 /// Step limit of the main scene in a state, and the agreement of all limits in that state with theory. A limit in the
-/// initial state must also be confirmed by the truth, because theory then ignores all later states.
+/// initial state must also be confirmed by the truth, because theory ignores the later states of such a scene.
 Findings limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
   const auto run = recommended_run(scene.name, recommended_part, rows);
   std::optional<LimitRow> shown;

@@ -49,7 +49,7 @@ struct FindingRule {
   std::string_view tier;      // tier of its truth; empty: set in each finding
   std::string_view words;     // placeholders that its findings may define, separated by blanks
   std::vector<std::string_view> tables;
-  std::string_view figure = {};  // figure that shows it; "{}" is its scene, "*" any text; empty: a table
+  std::string_view figure = {};  // figure that shows the finding ("{}": its scene, "*": any text); empty: a table
 };
 
 const std::vector<FindingRule>& finding_rules();

@@ -54,17 +54,17 @@ std::vector<ConeRow> plane_cones(const TableSet& rows);
 const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method);
 
 // Comparison of measured stability limits with theory, from table `stability`. The last stable and the first failed
-// step of a search form its bracket.
+// step of a search form the bracket of that search.
 
 /// Counts rows of one state whose theoretical limit is within the range of steps tried.
 struct StepLimitCounts {
   size_t agreeing = 0;              // deviation of 1 % or less
   double deviation = 0;             // largest deviation of the agreeing rows, relative to the predicted step
-  std::vector<std::string> scenes;  // their scenes
+  std::vector<std::string> scenes;  // scenes of the agreeing rows
   size_t coarse = 0;                // larger deviation, but the predicted limit is in the bracket
-  double widest = 0;                // largest bracket of both kinds, relative to the stable step
+  double widest = 0;                // widest bracket of agreeing and coarse rows, relative to the stable step
   size_t apart = 0;
-  std::string method, where;  // the row with the largest deviation, if neither agreeing nor coarse
+  std::string method, where;  // row with the largest deviation, among those neither agreeing nor coarse
   size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };

@@ -19,7 +19,7 @@ IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const ch
 /// Returns 1 if the expression (ECMAScript grammar) matches a part of the text.
 IMPORT(matches) int page_matches(const char* expression, const char* text);
 
-// The runtime's `throw`. The first base of every exception of mysim and its libraries is std::exception.
+// The runtime's `throw`. It may cast to std::exception, the first base of every exception of mysim and its libraries.
 extern "C" {
 void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*)(void*)) {

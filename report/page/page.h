@@ -57,7 +57,7 @@ struct ScenePart {
   std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;   // statistics of perturbed runs, for scenes with contact
-  std::optional<RecommendedRun> take;  // recommended run within 1 %
+  std::optional<RecommendedRun> take;  // recommended run with an error of at most 1 %
   std::vector<ShownRun> runs = {};     // runs in the small table of the scene's card
 };
 
@@ -83,7 +83,7 @@ struct Chapter {
     bool contact = false;  // requires a scene with a ball
   };
   std::string id, title = {}, label = {};  // label: title in the table of contents
-  std::vector<std::string> joins = {};     // ids of other chapters whose charts it shows
+  std::vector<std::string> joins = {};     // ids of other chapters whose charts this one shows
   std::vector<std::string> leads = {};     // patterns of opening figures; the first pattern with a match counts
   std::vector<std::string> folds = {};     // patterns of other figures, the most important first
   std::string formula = {};                // HTML template, unlike `teaching`, which is a template in Markdown

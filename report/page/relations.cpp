@@ -29,7 +29,7 @@ std::string_view css_class(RelationMark mark) {
 
 std::string sentence_of_relation(const std::string& name) {
   const Relation* relation = relation_named(name);
-  return relation ? std::string(relation->sentence) : name;  // a relation of another version's report
+  return relation ? std::string(relation->sentence) : name;  // other versions' reports may have unknown relations
 }
 
 /// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, the time at which the run failed.

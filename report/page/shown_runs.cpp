@@ -51,7 +51,7 @@ class Chooser {
       for (const ShownRun& each : charted_)
         if (each.method == take->method && each.run.step == run.step && each.run.tolerance == run.tolerance) add(each);
     }
-    std::vector<ShownRun> best = charted_;  // by cost; one run of each other method
+    std::vector<ShownRun> best = charted_;  // one run per method that is not yet chosen, cheapest first
     std::ranges::stable_sort(best, [this](const ShownRun& a, const ShownRun& b) { return better(a, b); });
     std::set<std::string> methods;
     for (const ShownRun& run : chosen_) methods.insert(run.method);

@@ -6,8 +6,8 @@
 namespace crosscheck {
 
 /// The runs of a scene that the page shows, at most nine: runs of the engines' representatives, which follow the same
-/// rule at the scene's own step and are shown side by side; the recommended run; each other method's cheapest run
-/// within 1 %. `holds`: returns true if the page has the runs of a method in the chart.
+/// rule at the scene's own step and are shown side by side; the recommended run; and, for all other methods, the
+/// cheapest run within 1 %. `holds`: returns true if the page has the runs of a method in the chart.
 std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
                                  const std::function<bool(const std::string& method)>& holds);
 

@@ -1,5 +1,5 @@
-// Guided experiments: for each step, the states of the lab, the condition of completion, and the numbers of its
-// explanation, which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
+// Guided experiments. Each step has states of the lab, a condition of completion, and numbers for the explanation,
+// which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
 
 import {Places} from '../player/vectors';
 
@@ -50,7 +50,7 @@ export interface Before {
 }
 
 type Memory = Record<string, number>;
-/** Observations before the guess, in all runs of a step, and in its present run. */
+/** Observations: before the guess, in all runs of a step, and in the present run. */
 export interface Seen {
   before: Before;
   all: Memory;

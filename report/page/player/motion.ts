@@ -142,8 +142,8 @@ export class Motion {
   readonly times: number[];  // s, times of the frames
   readonly begin: number;
   readonly end: number;
-  readonly error: (number|null)[];   // m, of frames
-  readonly energy: (number|null)[];  // J, of frames
+  readonly error: (number|null)[];   // m, one per frame
+  readonly energy: (number|null)[];  // J, one per frame
 
   /** `numbers`: frames x 3 x particles. */
   constructor(
@@ -169,7 +169,7 @@ export class Motion {
     return times.length < 2 ? 0 : next - 1 + (t - times[next - 1]) / (times[next] - times[next - 1]);
   }
 
-  /** Positions at a time (m), linear between frames; a run stays at its end. */
+  /** Positions at a time (m), linear between frames; after the end of the run, its last positions. */
   placesAt(time: number, into = new Float32Array(3 * this.particles)) {
     const {particles, numbers, run} = this, frame = this.frameAt(time), first = Math.floor(frame), part = frame - first;
     const a = 3 * particles * first, b = part > 0 ? a + 3 * particles : a;

@@ -86,7 +86,7 @@ export class MotionPlayer extends HTMLElement {
   begin = 0;
   end = 0;
   settled = Infinity;  // s; after this time all kinetic energies stay below 2 % of their maximum
-  top = 0;             // m, top of the scale of differences; 0: they are not resolved
+  top = 0;             // m, top of the scale of differences; 0: too small to resolve
   seen = false;
   private controls: typeof noControls = noControls;
   private orbit!: Orbit;

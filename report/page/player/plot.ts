@@ -17,7 +17,7 @@ export interface Series {
   css: string;
   dash?: string;
   points: Point[];
-  well?: boolean;  // did not fail
+  well?: boolean;  // true: the run did not fail
 }
 
 export interface Shown {
