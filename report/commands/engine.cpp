@@ -100,7 +100,7 @@ int compile_source(const EngineOptions& options, const OutsideEngine& engine, co
   Progress progress(1);
   progress.begin("compiling the adapter", 20);  // s
   const fs::path folder = data_folder() / "reference";
-  // no fused multiply-add, as in mysim's build, because it changes results
+  // -ffp-contract=off, as in mysim's build: fused multiply-add would change results
   std::vector<std::string> call{"g++",
                                 "-std=c++17",
                                 "-O2",

@@ -17,7 +17,7 @@ std::vector<Column> columns_of(const std::string& header);
 
 /// certificate-SCENE-METHOD.json
 std::string file_of(const Certificate& certificate);
-/// Writes tables and their dictionary as CSV, and the certificates.
+/// Writes tables and their dictionary as CSV, and the certificates as JSON.
 void write_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& folder);
 
 /// Rows as objects by column name. Empty cells and non-finite numbers are null.

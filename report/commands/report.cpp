@@ -58,7 +58,8 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
-/// For --engines all: adds built engines, and prints how to build the others. Defaults to shared rules on small scenes.
+/// For --engines all: adds built engines, and prints how to build the others. By default, selects small
+/// scenes, and rules that several engines share.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
   if (options.methods.empty()) {

@@ -130,7 +130,7 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
   return true;
 }
 
-/// Returns false if a label of a curve that ends at the right has no space, and there is no column of names yet.
+/// Returns false if there is no column of names yet, and a curve that ends at the right has no space for its label.
 bool CurvePlot::place_names() {
   const bool column = column_ > 0;
   std::vector<size_t> missing, order;
@@ -189,7 +189,7 @@ bool CurvePlot::place_names() {
   return true;
 }
 
-/// Places names to the right of the plot, at the heights where their curves end. Moves names apart that would overlap.
+/// Places names to the right of the plot, at the heights where their curves end. Moves apart names that would overlap.
 void CurvePlot::column_of_names() {
   struct Entry {
     size_t part;

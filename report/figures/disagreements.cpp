@@ -1,4 +1,4 @@
-// Known disagreements: one figure each, the scene's curve and Bullet's.
+// Known disagreements: one figure each, with the scene's own curve and that of Bullet.
 
 #include <fmt/format.h>
 

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Frequency (rad/s) of the fastest vibration that limits the step of each scene.
+/// For each scene, the frequency (rad/s) of the fastest vibration, which limits the step.
 std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   std::map<std::string, double> fastest;
   for (const LimitRow& row : table)

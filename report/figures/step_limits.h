@@ -1,4 +1,5 @@
-// Largest stable steps in units of the fastest vibration: one row per method, where the limits of all scenes coincide.
+// Largest stable steps, one row per method, as h omega of the fastest vibration: so expressed, limits of all scenes
+// coincide.
 #pragma once
 
 #include <optional>

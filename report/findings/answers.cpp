@@ -311,7 +311,7 @@ Findings ball_answer(const Facts& facts) {
                      {"final", same_rule ? final : ""}}}};
 }
 
-/// Compares mysim's symplectic rule that keeps the balance best with implicit Euler on the same scene.
+/// Compares implicit Euler with the symplectic rule of mysim that keeps the balance best, on the same scene.
 Findings energy_answer(const Facts& facts) {
   std::optional<Finding> best;
   const std::vector<EnergyRow> table = rows_of<EnergyRow>(facts.rows);

@@ -76,7 +76,8 @@ std::string off_text(double taken, double in_truth, double bar) {
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// Compares the energy taken by contact with the truth's: for representatives, and for mysim's most deviating method.
+/// Compares the contact losses of runs with those of the truth: for representatives, and for the method of mysim that
+/// deviates most.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;

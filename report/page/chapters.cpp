@@ -47,7 +47,7 @@ struct Lead {
   const PageFigure& of() const { return entry->figures[figure]; }
 };
 
-/// Figures that match the first pattern that has a match. The main scene's figure comes first.
+/// Tries the chapter's patterns in order, until figures match one. Returns these figures, the main scene's first.
 std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   for (const std::string& pattern : chapter.leads) {
     std::vector<Lead> leads;

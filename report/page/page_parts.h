@@ -50,8 +50,8 @@ Json chapters_data(const PageContent& content, Folds& folds);
 /// Figures that are visible without opening a fold.
 std::vector<std::string> figures_in_sight(const PageContent& content);
 
-/// Data of table.html: for all runs of a scene; for means and deviations over perturbed runs; for a recommendation per
-/// scene.
+/// Data of table.html for three tables: all runs of a scene; means and deviations over perturbed runs; and the
+/// recommendation for each scene.
 Json run_table_data(const ScenePart& part);
 Json statistics_data(const Table& statistics);
 Json recommendations_data(const std::vector<ScenePart>& scenes);

@@ -87,7 +87,7 @@ class Chooser {
         if (row.method == m.method && row.difference) last = row.difference;
     return last ? fmt::format("{}, {} at the end", text, nice_length(*last)) : text;
   }
-  /// Cost of the run in the method's chart that has the same step.
+  /// Cost of the run with the same step in the method's chart.
   std::optional<double> cost_at(const MethodData& m) const {
     for (const ShownRun& run : charted_)
       if (run.method == m.method && !is_adaptive(m.method) && std::abs(run.run.step / m.step - 1) < 1e-9)

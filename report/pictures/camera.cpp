@@ -126,7 +126,7 @@ constexpr double least_part = 0.7;          // minimum of body_part, even if sha
 constexpr double shadow_part = 1 - 2 * 0.015;  // fraction of the view for shadows
 constexpr double clearance = 0.08;             // height of the lowest point above the ground / size
 
-/// Conditions from both sides along an axis of the picture, for one slope.
+/// The conditions at both edges along an axis of the picture, for one slope.
 struct Wedge {
   double slope;
   double upper = -std::numeric_limits<double>::infinity();  // maximum of  a + slope c

@@ -39,7 +39,7 @@ std::vector<double> mean_at_particles(const std::vector<Spring>& links, const st
   return sum;
 }
 
-/// Smallest number not below the value that is 1, 2 or 5 times a power of ten.
+/// Rounds a value up to 1, 2 or 5 times a power of ten. Returns 1 if the value is not positive.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));

@@ -29,7 +29,7 @@ Json triangles_json(const Scene& scene) {
   return packed_json(corners, 6);  // 6, because a grid's cell has two triangles with three corners each
 }
 
-/// Distance constraints, then springs, by family. The first `threads` of them are drawn on the surface.
+/// Distance constraints, then springs, by family. The first `threads` of these links are drawn on the surface.
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
   Json families = Json::array();

@@ -200,7 +200,7 @@ const watchFold = ({run, columns, rows}: Reading, seen: Seen) => {
 const foldValues = ({run}: Reading, seen: Seen) =>
     ({fold: degrees(seen.run.fold), centre: digits(-centreOf(run.x)[1])});
 
-/** Angle from the top of a ball at which a particle starts, rad. */
+/** Angle (rad) at which a particle starts, measured from the top of a ball. */
 export const startAngle = (r: Reading) => {
   const [x, y] = r.vector('particle.position');
   return Math.atan2(x, y);

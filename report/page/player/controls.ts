@@ -48,7 +48,7 @@ export const length = (metres: number) => {
   return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
 };
 
-/** Smallest number not below the value that is 1, 2 or 5 times a power of ten. */
+/** Rounds a value up to 1, 2 or 5 times a power of ten. */
 export function roundUp(value: number) {
   const power = 10 ** Math.floor(Math.log10(value));
   return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9))! * power).toPrecision(1));
