@@ -115,8 +115,8 @@ class LabModule : public InBrowser {
         ++exact;
         continue;
       }
-      // solvers stop at a residual of 1e-12, which means errors of 1e-10 m over a run of some metres; within a window
-      // these grow at most a thousandfold
+      // solvers stop at a residual of 1e-12, which means errors of 1e-10 m over a run of some metres; within the
+      // window these errors grow at most a thousandfold
       EXPECT_NEAR(entry["t"].number(), run.t, 1e-9);
       const std::vector<double> places = entry["places"].numbers();
       ASSERT_EQ(places.size(), static_cast<size_t>(run.x.size()));
