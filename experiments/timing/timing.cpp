@@ -13,7 +13,7 @@ namespace {
 /// The largest k >= 1 such that n fair coins show fewer than k heads with a probability of at most 0.05; 1 if there is
 /// no such k.
 size_t rank_of_bound(size_t n) {
-  double weight = std::pow(0.5, static_cast<double>(n)), below = 0;  // P(heads = k - 1), and P(heads < k)
+  double weight = std::pow(0.5, static_cast<double>(n)), below = 0;  // P(heads = k), and P(heads < k)
   size_t k = 0;
   while (k < n && below + weight <= 0.05) {
     below += weight;
