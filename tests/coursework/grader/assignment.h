@@ -20,8 +20,8 @@ namespace coursework {
 struct Part {
   std::string_view name;   // the file without its extension; calls_NAME.cpp calls it
   std::string_view title;  // key of the texts
-  /// Comma-separated names of its functions, if students may write the part in Python; empty otherwise. All parts of an
-  /// assignment have functions, or none (python.h).
+  /// Comma-separated names of its functions, if students may write the part in Python; empty otherwise. Either all
+  /// parts of an assignment have such names, or none (python.h).
   std::string_view functions = {};
 };
 
@@ -64,15 +64,15 @@ struct Assignment {
   std::span<const std::string_view> roles = {};  // roles for which a student's grade.toml may name a class
   /// Runs the student's code for a failing part and reports which terms of its formula are wrong or right.
   Looked (*look)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
-  /// Reports measured constants of a part that are the student's choice and not graded, whether the part fails or not.
+  /// Reports constants of a part that are measured, but not graded, because students choose them. Called for any part.
   std::string (*measured)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
-  /// If answers are reduced: text with question and answer for the first error in the answer.
+  /// For tests with reduced answers: text with the question and the answer at the first error.
   std::string (*shown)(const Texts& own, const Case& what, const Numbers& raw) = nullptr;
   std::filesystem::path folder() const;
 };
 
-/// The folder tests/coursework: relative to the program (mysim/base/installation.h), or as set in the environment
-/// variable CROSSCHECK_COURSEWORK.
+/// The folder tests/coursework: the one that the environment variable CROSSCHECK_COURSEWORK names, otherwise found
+/// relative to the program (mysim/base/installation.h).
 std::filesystem::path folder_of_coursework();
 
 std::span<const Assignment> assignments();

@@ -128,7 +128,7 @@ Remark too_large(const std::string& file) {
 }
 
 Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own) {
-  constexpr std::size_t longest = 8000;  // the relevant text is at the end of a line with long type names
+  constexpr std::size_t longest = 8000;  // with long type names, the relevant text is at the end of the line
   std::istringstream lines(said);
   std::optional<std::string> number, what;
   for (std::string line; std::getline(lines, line);) {
@@ -139,7 +139,7 @@ Remark first_error(const std::string& file, const std::string& said, const std::
         if (const auto there = line_of(one, line)) return {"build.compile", {one, *there, *what}};
       if (const auto here = line_of(file, line)) number = here;
     }
-    // for an error inside a header, reports the student's line that includes it, which the compiler names
+    // for an error inside a header, reports the student's line that includes the header; the compiler names this line
     if (!number) number = line_of(file, line);
     if (!what || !number) continue;
     const std::size_t lacks = what->find(": No such file or directory");
@@ -178,8 +178,8 @@ class PartBuilder : public Builder {
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1", "-pthread"});
-    // an index outside a vector or an array ends the program; no checks for charts, which measure the CPU time of
-    // unchecked code
+    // An index outside a vector or an array ends the program. Assignments with charts are an exception, because charts
+    // measure the CPU time of unchecked code.
     if (checking)
       command_.insert(command_.end(), checking_options().begin(), checking_options().end());
     else if (!fs::exists(folder_ / "calls_engine.cpp"))
@@ -335,7 +335,7 @@ class PartBuilder : public Builder {
                            folder / "object" / (path.stem().string() + ".o"), base_name(path.string()), own);
   }
 
-  /// Compiles the student's other sources, up to a number that bounds the time; skips those that fail.
+  /// Compiles the student's other sources, at most `most` to bound the time. Skips those that do not compile.
   std::vector<fs::path> other_objects(const Submission& submission, const fs::path& folder) const {
     constexpr int most = 8;
     std::vector<fs::path> made;
@@ -351,10 +351,10 @@ class PartBuilder : public Builder {
     return made;
   }
 
-  /// Links a part. Earlier parts are the official ones, so that an earlier mistake costs nothing here. If the part
+  /// Links a part. Earlier parts are the official ones, so that mistakes in those cost nothing here. If the part
   /// needs the student's own functions from earlier parts or other sources, these are linked after the official ones,
   /// which take precedence. Later parts are never official, because the student's code could call a linked solution.
-  /// They are the student's, on which an earlier part may depend, or, if these fail to link, the hand-out's starters.
+  /// They are the student's, because this part may depend on them, or the hand-out's starters if linking fails.
   Built linked(std::size_t i, const std::vector<Built>& objects, const Submission& submission, const fs::path& folder,
                const Around& around) const {
     if (objects[i].program.empty()) return objects[i];

@@ -16,8 +16,8 @@
 
 namespace coursework {
 
-/// Limits of the compiler, which may start processes for its passes. A part needs a thirtieth of the 30 s of CPU time,
-/// and a fifth of 1 GB per pass. The wall-clock limit is large, because a busy machine is not the source's fault.
+/// Limits of the compiler, which may start processes for its passes. A part needs about 1 s of CPU time, and a fifth of
+/// the 1 GB that each pass may use. The wall-clock limit is large, because a busy machine is not the source's fault.
 constexpr Limits compile_limits{.cpu = 30, .wall = 1800, .memory = 1024, .processes = 64, .output = 4096, .file = 64};
 
 class Compiler {
@@ -42,17 +42,17 @@ class Compiler {
   std::filesystem::path cache_;
 };
 
-/// Path that a program reports for a student's files, independent of the folder of compilation.
+/// Folder that programs report for the student's files, wherever these were compiled.
 constexpr std::string_view student_folder = "/handed-in";
-/// The compiler's option for files below this folder.
+/// The compiler's option that reports files below `folder` as files of student_folder.
 std::string as_student_folder(const std::filesystem::path& folder);
 
 /// Options of Builder::checked(). Programs are not position-independent, so that run-time addresses equal those in the
 /// file.
 const std::vector<std::string>& checking_options();
 
-/// Runs the command in the sandbox, which may write to `writable`. A failure is an error in our sources: throws
-/// std::runtime_error that names `what`.
+/// Runs the command in the sandbox, where it may write to `writable`. Throws std::runtime_error that names `what` if
+/// the command fails, which means an error in our sources.
 void compile_ours(const Sandbox& trusted, const std::vector<std::string>& command,
                   const std::filesystem::path& writable, const std::string& what);
 
@@ -79,8 +79,8 @@ class Builder {
  public:
   virtual ~Builder() = default;
 
-  /// The part's program with this source of ours (its solution, or a known mistake). Compiled at most once for the same
-  /// contents. Throws std::runtime_error with the compiler's output.
+  /// The part's program with a source of ours (the solution, or one with a known mistake). Compiles the same contents
+  /// only once. Throws std::runtime_error with the compiler's output.
   virtual std::filesystem::path ours(const std::string& part, const std::string& source) const = 0;
 
   /// Every part's program with the student's code, compiled in the sandbox within `folder`, which need not exist. Runs

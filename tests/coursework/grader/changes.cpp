@@ -14,7 +14,7 @@ const Param* find(const std::vector<Param>& params, const std::string& name) {
   return found == params.end() ? nullptr : &*found;
 }
 
-/// Positions of the numbers of a list whose number of items is an input too.
+/// A list in the inputs whose number of items is also an input: positions of this count and of the list's numbers.
 struct Listed {
   std::string name;  // the count's name
   std::size_t count, begin, end, items;
@@ -33,7 +33,7 @@ std::vector<Listed> lists_in(const CallLayout& layout) {
   return lists;
 }
 
-/// True if the answer has a row per item: no item can be left out then, because the answer would have fewer rows.
+/// True if the answer has a row per item. In this case no item can be left out, because the answer would lack a row.
 bool is_told_by_rows(const Listed& list, const Case& what) {
   const std::size_t rows = what.expected.size() / static_cast<std::size_t>(std::max(1, what.columns));
   if (list.name == "particles" || list.name == "count") return true;
@@ -152,8 +152,8 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   const bool meets = find(params, "radius") != nullptr;
   for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // parameters that are not set to zero: without a step nothing moves; without a radius, or at another position,
-    // there is no contact and so no error; a direction is never zero; and answers are compared with `exact`
+    // Parameters that must not be set to zero: without a step nothing moves; without a radius, or at another position,
+    // there is no contact that could go wrong; a direction is never zero; and answers are compared with `exact`.
     static const std::set<std::string> no_terms = {"h",      "frame",     "duration", "radius", "margin",
                                                    "centre", "before",    "proposed", "x",      "normal",
                                                    "n",      "direction", "exact"};

@@ -19,18 +19,18 @@ struct Change {
     twice,
     half,
     thrice,
-    third,  // these kinds multiply or replace all numbers with the name
+    third,  // all kinds up to here multiply or replace every number of that name
     square,
     times,
-    over,  // multiplied or divided: by themselves (square), or by another parameter
+    over,  // multiplied by itself (square) or by another parameter (times), or divided by it (over)
     first,
     next,
-    previous,  // replaced by the value of the first item, or of a neighbour
+    previous,  // replaced by the value of the first or of a neighbouring item
     exchanged,
-    instead,  // replaced by another parameter; `exchanged`: also the other way round
+    instead,  // replaced by another parameter; `exchanged`: the two parameters swap values
     without,
     only_first,
-    only_last,  // items of a list
+    only_last,  // a list without items, or with its first or last item only
     choice      // another integer
   };
   Kind kind;

@@ -58,7 +58,7 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// Complete result of an earlier grading whose fingerprint ends with `ending`; `fingerprint` receives the whole of it.
+/// Complete result of an earlier grading, if its fingerprint ends with `ending`. Returns its fingerprint, too.
 std::optional<Result> earlier_result(const fs::path& file, const Assignment& assignment, const std::string& ending,
                                      std::string& fingerprint) {
   if (!fs::exists(file)) return {};
@@ -282,7 +282,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const st
     const std::lock_guard<std::mutex> lock(speaking);
     ++done, graded += !known;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // estimates the remaining time without submissions that have an earlier result, which take no time
+    // the mean time per submission excludes submissions with an earlier result, which take no time
     const std::size_t left = submissions.size() - done;
     fmt::print(
         stderr, "{} of {}: {}{}{}\n", done, submissions.size(), submissions[i].name, known ? " (graded before)" : "",

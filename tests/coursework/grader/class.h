@@ -21,10 +21,10 @@ struct GradedSubmission {
 };
 
 /// Grades all submissions in the order of names, options.jobs in parallel. Writes NAME.json (before the rubric) and
-/// NAME.html of each submission to `out`. Reuses results that an earlier run of this program finished with the same
-/// seed, sandbox and assignment, if the submission is unchanged. `only`: tests to grade again for submissions with an
-/// earlier result (of the same files, seed and sandbox, by any version of program and assignment). Their other tests
-/// keep their results, and all results are written at the end.
+/// NAME.html of each submission to `out`. If a submission is unchanged, reuses its complete result of an earlier run of
+/// the same program with the same seed, sandbox and assignment. `only`: tests to grade again in submissions with an
+/// earlier result for the same files, seed and sandbox (any version of program and assignment). Other tests keep their
+/// results. Regraded results are written after all submissions have been graded.
 std::vector<GradedSubmission> grade_class(const Assignment& assignment, const std::vector<Handed>& submissions,
                                           const Sandbox& sandbox, const GradeOptions& options,
                                           const std::filesystem::path& out, const Rubric& rubric = {},

@@ -26,7 +26,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// Called between fork and exec. Returns false on any failure.
+/// Forbids new namespaces. Called between fork and exec. Returns false on any failure.
 bool close_namespaces() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
   if (!filter) return false;
@@ -88,7 +88,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
                        const fs::path& log, const Container& container) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (file < 0) throw std::runtime_error(log.string() + ": cannot be written");
-  // adopts orphaned descendants, so that they are measured, and killed at the end
+  // adopts orphaned descendants, so that these are measured too, and killed at the end
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const auto words = crosscheck::c_strings(command), named = crosscheck::c_strings(environment);
   const auto begin = std::chrono::steady_clock::now();

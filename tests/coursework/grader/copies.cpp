@@ -1,4 +1,4 @@
-// Parses grade.toml, and the marks that systems and users add to names of copies (tables).
+// Parses grade.toml, and recognises the marks that systems and users add to names of copies (tables below).
 #include "tests/coursework/grader/copies.h"
 
 #include <iconv.h>
@@ -23,7 +23,7 @@ constexpr const char* trailing[] = {
     "-backup", ".backup",  " backup", ".save",  "_prev",     "-prev", "_previous", " 副本", "的副本", "副本"};
 const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
                                               "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
-/// Libraries that some students hand in, by prefix of the folder's name. Without vecmath, which students may change.
+/// Prefixes of folder names of libraries that some students hand in. vecmath is absent, because students may change it.
 constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
                                            "imgui", "nanogui",    "boost",      "assimp", "sdl2",
                                            "stb",   "cmakefiles", "cmake-build"};
@@ -111,7 +111,7 @@ namespace {
 std::optional<std::string> converted(std::string_view text, const char* encoding) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
   if (converter == iconv_t(-1)) return {};
-  std::string out(2 * text.size(), '\0');  // two bytes become at most three
+  std::string out(2 * text.size(), '\0');  // two input bytes become at most three
   char *from = const_cast<char*>(text.data()), *to = out.data();
   std::size_t left = text.size(), room = out.size();
   const bool whole = iconv(converter, &from, &left, &to, &room) != std::size_t(-1) && left == 0;
@@ -142,7 +142,7 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
   if (a == b) return false;
   if (is_backup(a) != is_backup(b)) return is_backup(b);
   const std::vector<std::string> in_a = folders_above(a), in_b = folders_above(b);
-  std::string root_a, root_b;  // common folder, and the next folder of each path if there is one
+  std::string root_a, root_b;  // the common folder, and below it the next folder of a or b, if any
   std::size_t i = 0;
   for (; i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]; ++i) root_a += in_a[i] + "/";
   root_b = root_a;

@@ -1,4 +1,4 @@
-// Recognises backups, older copies and libraries in a submission; and grade.toml, in which students state their choice.
+// Recognises backups, older copies and libraries in a submission, and reads grade.toml, the student's choice of files.
 #pragma once
 
 #include <map>
@@ -18,16 +18,16 @@ bool in_library(const std::string& path);
 
 bool is_utf8(std::string_view text);
 /// The text as UTF-8 without a byte-order mark. Converts UTF-16 with a byte-order mark, which some editors write, and
-/// GB18030 (which includes GBK and GB2312), in which the second byte of a character may be the backslash that continues
-/// a comment.
+/// GB18030 (which includes GBK and GB2312). Unconverted, the second byte of a GB18030 character may be a backslash,
+/// which would continue a comment in the next line.
 std::string plain_utf8(std::string text);
 
-/// Order of two versions of a file: prefers the version in the copy with more files. A copy is everything in the folder
-/// at which the two paths diverge.
+/// Order of two versions of a file: prefers the version in the copy with more files. The copy of a version is its
+/// topmost folder that the other version's path does not share, with everything in it.
 class FullerCopy {
  public:
   explicit FullerCopy(std::vector<std::string> paths) : paths_(std::move(paths)) {}
-  /// Returns true if `a` is preferred. The criteria are: no backup, the fuller copy, fewer folders, the alphabet.
+  /// Returns true if `a` is preferred. Criteria in order: not a backup, fuller copy, fewer folders, alphabetical order.
   bool operator()(const std::string& a, const std::string& b) const;
 
  private:

@@ -38,8 +38,8 @@ bool parse_place(const std::string& place, fs::path& path, int& line) {
   return line > 0;
 }
 
-/// Finds the first place outside of libraries and signal handlers; returns false if it is not in a file of the
-/// student's.
+/// Finds the first place outside of libraries and signal handlers. Returns false if this place is not in one of the
+/// student's files.
 bool first_of_student(std::istream& places, Crash& crash) {
   for (std::string place; std::getline(places, place);) {
     fs::path path;

@@ -21,12 +21,12 @@ struct Crash {
 };
 
 /// Parses the output of a program of Builder::checked(). Returns the requested index from the check's message, and the
-/// `addresses` of the call stack. Uses only numbers, because students may have printed anything else.
+/// `addresses` of the call stack. Takes only numbers from the output, because students' programs may print anything.
 Crash crash_in(const std::string& captured, std::vector<std::string>& addresses);
 
-/// Runs the program of Builder::checked() and finds the line of the crash. Returns nullopt if it does not crash, or
-/// crashes outside of the student's lines: an index error in our calls, caused by an answer of the wrong size, is not
-/// the student's.
+/// Runs the program of Builder::checked() and finds the line of the crash. Returns nullopt if the program does not
+/// crash, or crashes outside of the student's lines, for example by an index error in our calls after an answer of the
+/// wrong size.
 std::optional<Crash> crash_of(const Sandbox& sandbox, const std::filesystem::path& program,
                               const std::vector<Case>& cases);
 

@@ -31,8 +31,8 @@ using crosscheck_engine::Vec;
 constexpr Limits engine_limits{
     .cpu = 10, .wall = 300, .idle = 5, .memory = 1024, .processes = 0, .answers = 1 << 18, .file = 1};
 
-/// Limit on the CPU time (s) of all runs of a part: several times what the hand-out's rules need. Beyond the limit,
-/// runs fail immediately.
+/// Limit on the CPU time (s) of all runs of a part, several times the time that the integrators in the hand-out
+/// need. Beyond the limit, runs fail immediately.
 constexpr double most_in_all = 300;
 
 /// CPU time of a part so far, stored in a file beside its program, because runs are separate, parallel processes.
@@ -86,7 +86,7 @@ int engine_command(const EngineCommand& command) {
   const auto begin = std::chrono::steady_clock::now();
   double cpu = 0;
   const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits, &cpu).at(0);
-  // a program that waits without using CPU time delays the charts too
+  // counts the wall-clock time of a program that waits without using CPU time, because it delays the charts too
   const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   spent.add(answer.how == How::waiting ? clock : cpu);
   const std::size_t n = scene.x.size(), frames = static_cast<std::size_t>(scene.samples) + 1;

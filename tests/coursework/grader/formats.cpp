@@ -140,7 +140,7 @@ namespace {
 
 std::string xml(const std::string& text) {
   std::string out;
-  for (const char c : escaped(clean(text))) c == '\n' ? out += "&#10;" : out += c;  // kept in XML attributes too
+  for (const char c : escaped(clean(text))) c == '\n' ? out += "&#10;" : out += c;  // kept in attributes, unlike \n
   return out;
 }
 

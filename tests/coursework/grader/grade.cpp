@@ -151,8 +151,8 @@ class Grading {
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// An ungraded test that made one of these calls with other numbers; the call would take as long again. Empty if
-  /// there is none.
+  /// Id of an ungraded test that made one of these calls with other numbers, because the call would take as long again;
+  /// empty if there is no such test.
   std::string ungraded_before(const std::vector<Case>& cases) const {
     for (const Case& each : cases)
       if (const auto found = ungraded_calls_.find(each.call); found != ungraded_calls_.end()) return found->second;
@@ -230,7 +230,7 @@ class Grading {
             seen_text(options_.common, options_.own, what, answer, others_of(what, test_run.cases, test_run.answers))};
   }
 
-  /// True if an earlier public test of the same function failed, whose feedback then shows the observations.
+  /// True if an earlier public test of the same function failed. Its feedback already shows the observations.
   bool failed_already(const TestRun& test_run, const TestResult& one) const {
     const std::string function = function_of(options_.own, one.part, test_run.cases[0]);
     for (std::size_t i = 0; &result_.tests[i] != &one; ++i)
@@ -327,8 +327,8 @@ class Grading {
         suspect.key.empty() ? cause_text(options_.common, options_.own, names) : said(options_.common, suspect);
     if (cause == options_.common.of("no_cause"))
       if (const std::string index = index_cause(part, of_part, tests); !index.empty()) cause = index;
-    // the hint on a single test could contradict a known cause; without one, the hint on the function's first failing
-    // test is the most informative
+    // The hint on a single test could contradict a known cause. Without a known cause, the hint on the function's first
+    // failing test is the most informative.
     const bool known = cause != options_.common.of("no_cause"),
                seen = suspect.key.empty() && look_closer(part, of_part, tests, wrong);
     for (TestResult* test : wrong) {
@@ -368,8 +368,8 @@ class Grading {
     return any;
   }
 
-  /// The sentence that explains the most lost points: a cause, or the first line on a test. If no points were lost, the
-  /// first remark before the tests.
+  /// The sentence that explains the most lost points: a cause, or the first line of a test's feedback. If no points
+  /// were lost, the first remark before the tests.
   std::string most_helpful() const {
     std::map<std::string, std::pair<bool, double>> lost;  // sentence -> (a file was handed in, points)
     std::string most = result_.preflight.empty() ? "" : result_.preflight.front();
@@ -418,7 +418,7 @@ class Grading {
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;           // by part
   std::map<std::string, fs::path> checked_;            // part -> program that checks every index
-  std::map<std::string, Answer> unusable_;             // part -> how it is unusable: missing, or does not compile
+  std::map<std::string, Answer> unusable_;             // part -> reason why it cannot run: missing, or does not compile
   std::map<std::string, std::string> ungraded_calls_;  // call that made a test ungraded -> this test
   std::vector<TestRun> test_runs_;                     // parallel to result_.tests
   std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // small cases are shown once

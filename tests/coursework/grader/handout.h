@@ -14,7 +14,7 @@ PublicTests public_tests(const Assignment& assignment);
 
 /// Creates the folder and writes handout.md, the starter, check/, CMakeLists.txt and README.md into it. Omits the
 /// solution, the styles, the mistakes and the tests' code. Throws InputError if a file cannot be written, and
-/// std::runtime_error if the assignment lacks one.
+/// std::runtime_error if a file of the assignment is missing.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
 /// Writes the hand-out in Python, with check.py instead of the program `check`. Throws InputError if the assignment is

@@ -9,10 +9,10 @@
 
 namespace coursework {
 
-/// The submissions in a folder, in the order of names. If the names are those of Moodle, Canvas or Gradescope, removes
-/// their additions, and makes the files of one person one submission. Otherwise every entry is a submission, except
-/// files that operating systems and Git leave behind, whose names are appended to `skipped`. Names are printable and
-/// distinct. Throws InputError if `path` is not a folder.
+/// The submissions in a folder, in the order of names. If the entries are named as by Moodle, Canvas or Gradescope,
+/// removes what these systems added to the names, and combines all files of a person into one submission. Otherwise
+/// every entry is a submission, except files that operating systems and Git leave behind, whose names are appended to
+/// `skipped`. Names of submissions are printable and distinct. Throws InputError if `path` is not a folder.
 std::vector<Handed> submissions_in(const std::filesystem::path& folder, std::vector<std::string>* skipped = nullptr);
 
 /// The name of a submission's folder or archive without the archive's extension.

@@ -152,8 +152,8 @@ bool answers_alike(const TestRun& one, const std::filesystem::path& program, con
   return true;
 }
 
-/// Compares shares with equal totals by their counts. Shares with different totals, as for cloths of different sizes,
-/// are equal if both are strictly between 0 and 1.
+/// Compares number i of two answers. Shares of the same total are equal if their counts are. Shares of different
+/// totals, as for cloths of different sizes, are equal if both are strictly between 0 and 1.
 bool same_number(const Answer& a, const Answer& b, std::size_t i, double tolerance) {
   const double of = i < a.of.size() ? a.of[i] : 0, other = i < b.of.size() ? b.of[i] : 0;
   const double apart = std::abs(a.got[i] - b.got[i]);

@@ -18,7 +18,7 @@ namespace coursework {
 /// `>>>>`. Throws InputError with file, line and the expected syntax.
 std::vector<Mistake> read_mistakes(const std::filesystem::path& file);
 
-/// Reads paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of simultaneous mistakes. Throws InputError as
+/// Reads paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of simultaneous mistakes. Throws InputError like
 /// read_mistakes().
 std::vector<std::pair<std::string, std::string>> read_pairs(const std::filesystem::path& file);
 
@@ -38,12 +38,12 @@ struct TestRun {
 /// The answer in the form that is compared with the expected answer.
 Answer reduced(const Test& test, const Case& what, Answer raw);
 
-/// True if two wrong answers agree. The tolerance grows with answers that exceed the right ones, so that two
-/// implementations of the same mistake agree on a motion that blows up.
+/// True if two wrong answers agree. The tolerance is larger if the answers exceed the right ones, so that two
+/// implementations of the same mistake agree even if the motion blows up.
 bool agree(const Case& what, const Answer& student, const Answer& mistake);
 
 /// The mistakes of `known` whose programs give all of the student's answers. A single mistake is the cause; several are
-/// reported as alternatives. Empty if more than three match, which is not informative. `runs` are all tests of one
+/// reported as alternatives. Empty if more than three match, because so many do not help. `runs` are all tests of one
 /// part.
 std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,

@@ -17,7 +17,7 @@ namespace coursework {
 namespace {
 
 constexpr std::size_t most_alike = 3;       // alternatives that may be reported together
-constexpr std::size_t most_numbers = 4000;  // numbers of a case, which is run a hundred times
+constexpr std::size_t most_numbers = 4000;  // limit on the numbers of a case, because a case is run a hundred times
 
 bool usable(const Case& what, const Answer& answer) {
   return answer.how == How::answered && answer.got.size() == what.expected.size() &&
@@ -34,7 +34,7 @@ Case with_numbers(const Case& what, Numbers in) {
   return other;
 }
 
-/// The case with the answer `right` as the expected one.
+/// The case, with `right` as its expected answer.
 Case expecting(const Case& what, const Answer& right) {
   Case other = what;
   other.expected = right.got;
@@ -186,7 +186,7 @@ class Observer {
     return 2 * long_ones > all;
   }
 
-  /// The number of the case with this name; nullopt if there is no such number, or several.
+  /// The input of the case with this name; nullopt if there is no such input, or if it has several numbers.
   std::optional<double> number_of(const Case& what, const std::string& name) const {
     for (const Param& p : params_of(CallLayout::of(with_.own, what)))
       if (p.name == name && p.scalar()) return what.in[p.at[0]];
@@ -228,7 +228,7 @@ class Observer {
     return false;
   }
 
-  /// True if the answer only repeats numbers of the call, so that nothing is computed without the term.
+  /// True if the answer without the term only repeats inputs, which means that nothing is computed without it.
   bool hands_through(const Numbers& answer) const {
     for (const Param& param : params_of(CallLayout::of(with_.own, *subject_)))
       for (std::size_t from = 0; from + answer.size() <= param.at.size(); from += answer.size()) {

@@ -25,8 +25,8 @@ struct Observing {
 /// First, runs the official solution with one change: a number is set to zero or one, negated, doubled, halved,
 /// exchanged with another number, or replaced by the first value or a neighbour's; or a list has no items. Changes that
 /// reproduce all of the student's answers are reported ("right with drag = 0"), unless there are more than three.
-/// Otherwise, runs both programs on the smallest wrong case with one term removed. If the student's answer is then
-/// right, reports this term, and what the student's code computes in its place.
+/// Otherwise, runs both programs on the smallest wrong case with one term removed. If the student's answer without the
+/// term is right, reports the term, and what the student's code computes in its place.
 std::vector<std::string> seen_at(const Observing& with, const Assignment& assignment, const std::string& part,
                                  const std::vector<TestRun>& runs, const std::vector<bool>& told_at);
 

@@ -116,8 +116,8 @@ bool has_main(const fs::path& file) {
   return false;
 }
 
-/// True if `source`, which includes `header`, implements it. Programs with a main only use the header. So do the calls
-/// of public tests, which are compiled with submissions: their "calls.h" does not exist elsewhere.
+/// True if `source` includes `header` and implements it. Programs with a main only use the header, and so do the calls
+/// of public tests. These include "calls.h", a path that exists only where they are compiled with a submission.
 bool belongs_to(const fs::path& root, const std::string& source, const std::string& header) {
   const auto its = includes_of(root, source);
   return !has_main(root / source) && std::find(its.begin(), its.end(), header) != its.end() &&
@@ -192,10 +192,10 @@ void add_headers(Files& files) {
 std::string identifier_of(std::string_view assignment) {
   std::string name(assignment);
   std::replace(name.begin(), name.end(), '-', '_');
-  return name;  // the name of the assignment's function begins with this identifier
+  return name;  // the assignment is returned by a function whose name begins like this
 }
 
-/// The table with the row of `only`, because sources of other assignments are not packed.
+/// The table of assignments with only the row of `only`, because sources of other assignments are not packed.
 std::string table_of_one(const std::string& table, const Assignment& only) {
   std::string out;
   size_t begin = 0;

@@ -22,18 +22,18 @@ void unpack_zip(const std::filesystem::path& zip, const std::filesystem::path& f
 
 // The package for Gradescope; its grader is built on the target machine.
 
-/// Writes the zip: setup.sh (which installs packages and runs build.sh), run_autograder, the sources of the grader, of
-/// the part of mysim that it uses and of this assignment, the headers of header-only libraries, and `secret`, the line
-/// from which hidden tests are derived. Throws std::runtime_error if a source or a library is not found.
+/// Writes the zip: setup.sh (which installs packages and runs build.sh), run_autograder, sources (the grader, the part
+/// of mysim that it uses, and this assignment), the headers of header-only libraries, and `secret`, the line from which
+/// hidden tests are derived. Throws std::runtime_error if a source or a library is not found.
 void write_package(const Assignment& assignment, const std::string& secret, const std::filesystem::path& zip);
 
 /// Returns a file of an unpacked package that is missing, superfluous, or different from what write_package() writes;
 /// empty if there is none. Any secret is accepted.
 std::string foreign_file(const Assignment& assignment, const std::filesystem::path& folder);
 
-/// Source files below `root` that a program with the sources `first` needs: included files, and the sources that
-/// implement them. These are the .cpp next to a header with the same name, and each .cpp without a header of its own
-/// that includes a header from its own folder and is not a program. Paths are relative to `root`, and sorted.
+/// Source files below `root` that a program with the sources `first` needs: included files, and sources that implement
+/// them. A .cpp implements the header of the same name next to it. If there is none, and the .cpp is not a program, it
+/// implements every header of its folder that it includes. Paths are relative to `root`, and sorted.
 std::vector<std::string> sources_needed(const std::filesystem::path& root, std::vector<std::string> first);
 
 /// Unpacks the zip into a fresh folder laid out as Gradescope's /autograder. If it is a package of this version, builds

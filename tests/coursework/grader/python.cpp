@@ -26,8 +26,8 @@ std::string interpreter() {
   return named && *named ? named : "/usr/bin/python3";
 }
 
-/// Closes our copies of a program's pipe ends when the program has ended; otherwise the program at the other ends would
-/// not notice.
+/// Closes our copies of a program's pipe ends when the program has ended. Otherwise the program at the other ends of
+/// the pipes would not notice.
 struct AtEnd {
   Descriptor &from, &to;
   ~AtEnd() { from.reset(), to.reset(); }
@@ -124,7 +124,7 @@ std::vector<std::string> python_files(const Assignment& assignment) {
 
 std::string missing_python_package() {
   static std::mutex mutex;
-  static std::set<std::string> complete;  // interpreters that have NumPy, which are not started again
+  static std::set<std::string> complete;  // interpreters that are known to have NumPy
   const std::lock_guard lock(mutex);
   const std::string python = interpreter();
   if (complete.count(python) > 0) return "";

@@ -31,13 +31,13 @@ std::unique_ptr<Builder> python_builder(const Assignment& assignment, const Sand
 /// True if python_builder() has made the program.
 bool is_python_program(const std::filesystem::path& program);
 
-/// Runs the program around the part with the job's input, and in the sandbox the interpreter that it calls. Returns how
-/// the interpreter ended if it ended first, otherwise how the program ended.
+/// Runs the program that calls the part, with the job's input, and, in the sandbox, the interpreter that it calls.
+/// Returns how the interpreter ended if it ended first, otherwise how the program ended.
 End run_python(const Sandbox& sandbox, const std::filesystem::path& program, const Job& job);
 
-/// The text of a Python exception that may be shown. For public tests it is the whole text, because the interpreter
-/// contains nothing of ours. For hidden tests, whose inputs the text may contain, it is only the student's line and a
-/// known type of exception.
+/// The text of a Python exception that may be shown. For public tests, this is the whole text, because the
+/// interpreter knows no secrets. For hidden tests, whose inputs the text may contain, it is only the student's line and
+/// a known type of exception.
 std::string shown_python_exception(const std::string& text, const std::map<std::string, std::string>& files,
                                    bool hidden);
 

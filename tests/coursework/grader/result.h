@@ -13,7 +13,7 @@ struct TestResult {
   std::string id, part, title;
   std::string heading;  // above the tests of a part: the file's name, or the part's title
   bool hidden = false;
-  bool ungraded = false;  // a limit of ours prevented a verdict; unlike 0 points, "ungraded" is no grade
+  bool ungraded = false;  // one of our limits prevented a verdict: the test has no grade, instead of 0 points
   double points = 0, earned = 0;
   std::vector<std::string> concepts;
   std::string said;   // feedback for the student: expected and actual numbers, the first row that differs
@@ -44,8 +44,8 @@ bool passed(const TestResult& test);
 /// "passed", "failed" or "ungraded": a key of the common texts.
 std::string_view status_of(const TestResult& test);
 
-/// The result as JSON, and back; an interrupted class is resumed from it. The JSON contains the fingerprint of the
-/// graded files and the grader, if there is one. Reading throws InputError with the file.
+/// Convert a result to JSON and back, which allows resuming an interrupted run. The JSON contains the fingerprint of
+/// the graded files and the grader, if there is one. Reading throws InputError with the file.
 std::string to_json(const Result& result, const std::string& fingerprint = "");
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
 

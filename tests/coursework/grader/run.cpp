@@ -58,7 +58,7 @@ Answer ending(const End& end, const Limits& limits) {
   return {How::no_token, {}, {}};
 }
 
-/// Limit on the length of messages of tests/coursework/check/child_main.cpp; longer ones are forged, and cut.
+/// Limit on the length of messages of tests/coursework/check/child_main.cpp. Longer messages are forged; they are cut.
 constexpr std::size_t longest_said = 200;
 constexpr std::size_t longest_name = 40;
 
@@ -108,7 +108,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
       finished = true;
       continue;
     }
-    // messages before the end, which are valid only for a certain kind of end
+    // messages that announce the end; each is valid only if the process then ended accordingly
     if (line.rfind("slow", 0) == 0 && rest.how == How::out_of_time) {
       rest.counts = counts_in(line.substr(4), true);
       begin = end.answers.size();

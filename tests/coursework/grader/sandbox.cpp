@@ -38,8 +38,8 @@ class BareSandbox final : public Sandbox {
     start.environment = {"PATH=/usr/bin:/bin", "LANG=C", "HOME=" + staging.own().string(),
                          "TMPDIR=" + staging.own().string()};
     start.folder = job.writable.empty() ? staging.own() : job.writable;
-    // The filter only restricts what the command may start. A limit on processes would include all processes of the
-    // user.
+    // Only the filter restricts which processes the command may start. The system's limit on processes is not set,
+    // because it would count all processes of the user.
     start.filter = job.limits.processes > 0 ? std::string() : none_;
     start.input = job.input;
     start.limits = job.limits;
@@ -105,11 +105,11 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
                                "ALL", "--hostname",    "sandbox",           "--clearenv"};
   const auto add = [&all](std::initializer_list<std::string> more) { all.insert(all.end(), more); };
   for (const char* folder : system_folders) add({"--ro-bind-try", folder, folder});
-  // if Crosscheck is installed, hides its tests, which are in one of the system's folders
+  // hides the tests of an installed Crosscheck, which are in one of the system's folders
   if (const auto tests = folder_of_coursework(); tests.string().starts_with("/usr/"))
     add({"--tmpfs", tests.string(), "--remount-ro", tests.string()});
-  // bwrap's own first process runs inside under the same user and without the filter: with access to /proc, a program
-  // could write to its memory. Compilers see /proc, students' programs do not.
+  // The first process inside is bwrap's own. It has the same user as the program, but no filter, so a program with
+  // access to /proc could write to that process's memory. Compilers see /proc, students' programs do not.
   if (job.limits.processes > 0) add({"--proc", "/proc"});
   // Four times the limit on one file, which is enough for several files.
   add({"--dev", "/dev", "--size", std::to_string(4 * (job.limits.file << 20)), "--tmpfs", "/tmp"});
@@ -121,7 +121,7 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
   add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
   const std::size_t first = 4 + job.passed.size();
   add({"--seccomp", std::to_string(first), "--json-status-fd", std::to_string(first + 1), "--"});
-  // set inside the namespace, which counts only its own processes; the first option is bash's, the second dash's
+  // The limit is set inside the namespace, where only processes of the namespace count. -u is bash's option, -p dash's.
   if (job.limits.processes == 0 && geteuid() != 0 && counts_by_namespace())
     add({"/bin/sh", "-c", R"({ ulimit -u "$0" || ulimit -p "$0"; } 2>/dev/null; exec "$@")",
          std::to_string(job.limits.threads + 1)});
@@ -152,9 +152,9 @@ class BwrapSandbox final : public Sandbox {
     start.passed.insert(start.passed.end(), {filter.get(), status.get()});
     start.input = job.input;
     start.limits = job.limits;
-    // The three further processes are bwrap, its first process inside, and the program. Without a separate user, all
-    // processes of the calling user would count too. Then the limit on threads is set inside, and the number of
-    // processes is bounded only by the wall-clock limit and the end of the namespace.
+    // tasks() includes the program; bwrap and its first process inside count, too. Without a separate user, all
+    // processes of the calling user would count. In that case the limit on threads is set inside, and the number of
+    // processes is unlimited until the wall-clock limit stops the run and ends the namespace.
     start.processes = user ? tasks(job.limits) + 2 : -1;
     ProcessResult ended = spawn(start);
     const bool stopped = ended.wall || ended.idle || ended.output || ended.full;
@@ -195,7 +195,7 @@ class UidSandbox final : public Sandbox {
     start.folder = job.writable.empty() ? staging.own() : staging.of(job.writable);
     start.user = user.id();
     start.lock = user.lock();
-    // Nothing limits the total size of the program's files: without a writable folder it must not create any.
+    // Nothing limits the total size of the program's files, so a program without a writable folder must not create any.
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;
     start.limits = job.limits;
@@ -218,7 +218,7 @@ struct Row {
   std::unique_ptr<Sandbox> (*make)();
 };
 
-// In the order in which they are tried. `bare` is never chosen automatically.
+// Sandboxes in the order in which they are tried. `bare` is never chosen automatically.
 constexpr Row sandboxes[] = {{"bwrap", bwrap_sandbox}, {"uid", uid_sandbox}};
 
 constexpr std::string_view no_sandbox_means =

@@ -10,8 +10,8 @@
 namespace coursework {
 
 struct Limits {
-  double cpu = 2, wall = 5;  // s; cpu: sum over all processes, and each is stopped at the next full second
-  double idle = 30;          // s during which none of its processes runs, or waits for a processor or a disk
+  double cpu = 2, wall = 5;  // s; cpu: sum over all processes; a single process is stopped at the next full second
+  double idle = 30;          // s during which no process of the program runs or waits for a processor or disk
   long memory = 1024;        // MB of address space, for each process
   long processes = 0;        // number of processes that the program may start; 0: only threads
   long threads = 64;         // number of threads with the main one; enforced only if `processes` is 0
@@ -22,9 +22,9 @@ struct Limits {
 
 /// A program to run in a sandbox. If the grader runs as root, the program runs as a separate user and on copies of
 /// `readable`, so that our folders can be private. Protected folders must be private, because a sandbox without
-/// namespaces hides no others (see sees()). The program starts in `writable`, or in an empty private folder. Its
-/// environment contains only PATH, LANG, HOME and TMPDIR. If it may not start processes, it has no /proc in sandbox
-/// bwrap.
+/// namespaces hides only private folders (see sees()). The program starts in `writable`, or in an empty private folder.
+/// Its environment contains only PATH, LANG, HOME and TMPDIR. In sandbox bwrap, a program that may not start processes
+/// has no /proc.
 struct Job {
   std::vector<std::string> command;                  // absolute paths
   std::vector<std::filesystem::path> readable = {};  // folders that the program can read in addition to the system's
@@ -37,9 +37,9 @@ struct Job {
   std::vector<int> passed = {};  // descriptors that the program gets as 4, 5, ...
 };
 
-/// Outcome, determined in this order: stopped by us (wall, idle, output, answers); CPU time exceeded (cpu); memory: the
-/// program failed and reported this (a last line `memory` on descriptor 3, or "bad_alloc" or "out of memory" in
-/// captured_output), or the kernel killed it while it used most of its limit; a signal; an exit code.
+/// Outcome. The first that applies: we stopped the program (wall, idle, output, answers); it exceeded its CPU time
+/// (cpu); it ran out of memory, which it reported before it failed (last line `memory` on descriptor 3, or "bad_alloc"
+/// or "out of memory" in captured_output), or the kernel killed it near this limit; a signal; an exit code.
 struct End {
   enum class How { exited, signal, cpu, wall, idle, memory, output, answers } how = How::exited;
   int code = 0;                 // exit status, or the signal
@@ -53,9 +53,9 @@ class Sandbox {
   virtual ~Sandbox() = default;
   virtual std::string_view name() const = 0;
   virtual std::string_view says() const = 0;  // describes the protection in one sentence
-  /// Runs the job until it ends or reaches a limit. Afterwards none of its processes exists, and no file outside
-  /// `writable`. Thread-safe. Throws std::runtime_error if the job cannot be started, but never for what the program
-  /// does.
+  /// Runs the job until it ends or reaches a limit. Afterwards none of its processes and no files outside
+  /// `writable` exist. Thread-safe. Throws std::runtime_error if the job cannot be started, but never for what the
+  /// program does.
   virtual End run(const Job& job) const = 0;
 };
 

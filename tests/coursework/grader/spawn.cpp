@@ -29,7 +29,7 @@
 namespace coursework {
 namespace {
 
-constexpr int above = 32;  // our descriptors are above the numbers that the program's get
+constexpr int above = 32;  // our descriptors have larger numbers than those of the program
 
 void close_from(int first) {
   if (syscall(SYS_close_range, first, ~0u, 0) == 0) return;
@@ -63,7 +63,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
   set_limit(RLIMIT_STACK, 8 << 20, 8 << 20);
   set_limit(RLIMIT_FSIZE, setup.file, setup.file);
   set_limit(RLIMIT_NPROC, setup.processes, setup.processes);
-  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU; one second later SIGKILL, if it was ignored
+  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU, and if it is ignored, SIGKILL one second later
   set_limit(RLIMIT_AS, setup.memory, setup.memory);
   if (setup.user && !become(setup.user)) fail(setup, "change to another user");
   if (chdir(setup.folder) != 0) fail(setup, "enter the folder it starts in");
@@ -78,8 +78,8 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
     if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, setup.filter) != 0)
       fail(setup, "install the filter of system calls");
   }
-  // If another of our threads forked while this program was being written, its child keeps the program open for writing
-  // until it has closed the inherited descriptors. Only then can the program be started.
+  // If another of our threads forked while this program was being written, the forked child keeps the program open for
+  // writing until it has closed the inherited descriptors. Only after that can the program be started.
   const timespec moment{0, 1000000};
   for (int waited = 0; waited < 2000; ++waited) {
     execve(setup.command[0], setup.command, setup.environment);
@@ -104,7 +104,7 @@ void kill_children() {
   }
 }
 
-/// Adds resource usage. Needed because a program may leave zombies, which this process waits for.
+/// Adds resource usage, because this process also waits for zombies that a program leaves behind.
 void add_usage(rusage& sum, const rusage& more) {
   timeradd(&sum.ru_utime, &more.ru_utime, &sum.ru_utime);
   timeradd(&sum.ru_stime, &more.ru_stime, &sum.ru_stime);

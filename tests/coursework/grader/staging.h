@@ -42,9 +42,9 @@ class SandboxUser {
   int held_ = -1;
 };
 
-/// Gives `folder` to a user for a time. The destructor returns everything in it to us, removes entries that are not
-/// plain files or folders or have hard links elsewhere, and makes the rest readable for others. No effect if the user
-/// is 0 or the path is empty.
+/// Makes `user` the owner of `folder` for a time. The destructor makes us the owner of everything in the folder again,
+/// removes entries that are not plain files or folders or have hard links elsewhere, and makes the rest readable for
+/// others. No effect if the user is 0 or the path is empty.
 class ScopedOwner {
  public:
   ScopedOwner(std::filesystem::path folder, unsigned user);

@@ -225,7 +225,7 @@ void FileMatcher::into(Submission& submission) const {
       submission.missing[name] = {"file.missing", {name}};
       continue;
     }
-    // prefers non-backups, then the file in the fewest folders, then the exact name to one that differs in case
+    // prefers files that are not backups, then files in fewer folders, then exact names over names that differ in case
     auto rank = [&](const Found& f) {
       return 8 * is_backup(f.path) + 2 * depth_of(f.path) +
              (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
@@ -243,8 +243,8 @@ void FileMatcher::into(Submission& submission) const {
         for (const auto& [place, file] : own_includes(beside, path, content)) submission.files[file] = beside.at(file);
       };
       add_included(best.path, best.content);
-      // other sources in the same folder belong to the program, as the hand-out builds every source in its folder;
-      // modules of Python may also be in folders below
+      // Other sources in the same folder belong to the program, because the hand-out builds every source in its folder.
+      // Python modules may also be in folders below.
       const std::string folder = best.path.substr(0, best.path.rfind('/') + 1);
       for (const auto& [path, content] : beside)
         if (path.starts_with(folder) && !is_backup(path) &&

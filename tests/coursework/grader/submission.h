@@ -31,7 +31,8 @@ struct Submission {
 };
 
 /// Files that the file at `path` includes, directly or indirectly, among `files` (contents by path). Maps the path at
-/// which the compiler looks for each file to its actual path. An unresolved include matches the only file of that name.
+/// which the compiler looks for a file to the file's actual path. If there is no file at the path of an include, the
+/// file of that name elsewhere is taken, provided that it is the only one.
 std::map<std::string, std::string> own_includes(const std::map<std::string, std::string>& files,
                                                 const std::string& path, const std::string& content);
 
@@ -59,10 +60,10 @@ constexpr std::size_t most_program_files = 200;
 constexpr std::size_t largest_program = 4u << 20;  // bytes, all C++ files together
 
 /// Finds the wanted files in the top folder, in src/ and one folder below, ignoring case; prefers files in the fewest
-/// folders. Backups and older copies have lower priority (copies.h), and a file grade.toml overrides the choice;
-/// `roles` are the roles for which it may name classes. If there are no such files but a single archive, reads that
-/// archive. If no file is wanted by name, reads every C++ file that is not a library's, by its path. Never follows
-/// links. Throws InputError if there is nothing at `path`; all errors of students become remarks.
+/// folders. Backups and older copies have lower priority (copies.h). The student's file grade.toml overrides the
+/// choice, and may name classes for `roles`. If no wanted file is found, but a single archive, reads that archive. If
+/// no file is wanted by name, reads every C++ file that is not part of a library, and names it by its path. Never
+/// follows links. Throws InputError if there is nothing at `path`; all errors of students become remarks.
 Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& roles = {});
 Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted,

@@ -47,8 +47,8 @@ bool all_single(const std::vector<TestRun>& of_part) {
   return any;
 }
 
-/// True if there are wrong cases, and the first wrong number of each is the right one without its fraction. Features
-/// extracted from answers do not count, because they are not the student's own numbers.
+/// True if there are wrong cases, and in each of them the first wrong number equals the expected number truncated to an
+/// integer. Ignores features extracted from answers, because they are not the student's own numbers.
 bool all_whole(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
@@ -72,7 +72,7 @@ bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part
   return false;
 }
 
-/// True if every wrong case passes when `program` runs it or `changed` modifies its inputs; expected answers stay.
+/// True if `program` passes every wrong case after changed() has modified its inputs. Expected answers are unchanged.
 template <class Changed>
 bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part, Changed changed) {
   for (const TestRun& one : of_part) {
@@ -155,8 +155,8 @@ std::string in_double(const std::string& source, int& line) {
   return line == 0 ? "" : out + source.substr(done);
 }
 
-/// The line of the first float in the file if all tests pass with double instead, otherwise 0. The digits of the
-/// answers do not show rounding of intermediate results to single precision.
+/// The line of the first float in the file if all tests pass with double instead, otherwise 0. Finds intermediate
+/// results rounded to single precision, which the digits of the answers do not reveal.
 int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
   const auto found = subject.submission.files.find(file);
   if (found == subject.submission.files.end()) return 0;
@@ -190,7 +190,7 @@ int line_of_integer_division(const Subject& subject, const std::vector<TestRun>&
   const auto line = [&](std::size_t at) {
     return 1 + static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   };
-  // tries each division alone first: changing all of them would not compile if one is an index
+  // tries each division alone first, because the source with all divisions changed does not compile if one is an index
   for (const std::size_t at : all)
     if (mended_by({at})) return line(at);
   return all.size() > 1 && mended_by(all) ? line(all.front()) : 0;
@@ -204,7 +204,7 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
   const std::string code = code_of(source);
   const auto literal = [](const std::string& word) { return std::regex_match(word, std::regex("[0-9]+[uUlL]*")); };
   const auto whole = [&](const std::string& word) {
-    if (literal(word) || word.ends_with(")")) return true;  // size() is the only name followed by brackets
+    if (literal(word) || word.ends_with(")")) return true;  // `division` matches no other call than size()
     if (std::isdigit(static_cast<unsigned char>(word[0]))) return false;
     return std::regex_search(code, std::regex("\\b(int|unsigned|long|short|size_t|ptrdiff_t)\\s+" + word + "\\b"));
   };
@@ -219,8 +219,8 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
 }
 
 bool can_be_searched(const std::string& source) {
-  // twenty times the size of our solutions, so that a search for each word takes seconds; a fifth of the length at
-  // which the stack overflows
+  // `largest` is twenty times the size of our solutions; the search for each word then takes seconds. `longest` is a
+  // fifth of the length at which the stack overflows.
   constexpr std::size_t largest = 1u << 15, longest = 4000;
   if (source.size() > largest) return false;
   std::size_t blanks = 0, word = 0;
