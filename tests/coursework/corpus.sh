@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The corpus of all assignments, then all cheats: corpus.sh BUILD. All mistakes on 20 seeds and all odd programs take an
-# hour; CORPUS_SEEDS and ODD_PROGRAMS say how many.
+# Tests the corpus of all assignments, then all cheats: corpus.sh BUILD. All mistakes with 20 seeds and all odd programs
+# take an hour; CORPUS_SEEDS and ODD_PROGRAMS set these numbers.
 set -euo pipefail
 build=$(realpath "${1:?expected the folder of a build, as build/release}")
 export CROSSCHECK_CACHE=$build/cache

@@ -1,6 +1,6 @@
-// Shared by the cheats. A cheat returns the right answer if its trick works, so that it earns points and is noticed;
-// otherwise it returns an answer that earns nothing. The runner defines macros with all that an informed student could
-// have found out:
+// Shared by the cheats. A cheat returns the right answer if its trick works, so that it earns points and is noticed.
+// Otherwise it returns an answer that earns nothing. The runner defines macros with everything that an informed student
+// could have found out:
 //   RESULTS, HOME_FOLDER, TESTS: folders that hold results, a home, the assignment with tests and solution.
 #pragma once
 

@@ -12,7 +12,7 @@ struct Row {
   State x, next;
 };
 
-// made by the runner from the public tests, as a student could from the hand-out
+// The runner makes this file from the public tests. Students could make it from the hand-out.
 const std::vector<Row> table = {
 #include "public_table.inc"
 };

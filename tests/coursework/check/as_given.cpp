@@ -1,4 +1,4 @@
-// For hand-outs of assignments whose expected answers and curves are the numbers of their tests.
+// For hand-outs of assignments whose tests compare and draw the answers themselves, without extracting features.
 #include "calls.h"
 
 namespace coursework {

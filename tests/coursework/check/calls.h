@@ -22,8 +22,8 @@ class Unusable : public std::runtime_error {
   std::vector<std::size_t> numbers_;
 };
 
-/// Announces a call of this student function, so that the message on slow code can name it. Each program that runs the
-/// student's code defines it.
+/// Announces a call of the student's function, so that the message on slow code can name that function. Each program
+/// that runs the student's code defines calling().
 void calling(const char* function);
 
 /// Calls the student's code. Returns false if no part knows the call. Lets exceptions of the student's code through.

@@ -112,7 +112,7 @@ std::string shown_beside(const PublicTest& test, const Case& what, const Answer&
 }
 
 /// Runs the test's cases up to the first wrong one, and keeps a few plots, including that of the wrong case.
-/// `failed_before`: the first failed test of its function, if any; `told`: functions that already have feedback on
+/// `failed_before`: the first failed test of the same function, if any; `told`: functions that already have feedback on
 /// small cases.
 ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
               std::set<std::string>& told) {
@@ -160,7 +160,7 @@ bool asked_for(const PublicTest& test, const std::vector<std::string>& which) {
 }
 
 int check(const std::string& language, const std::vector<std::string>& which) {
-  // Windows may fail to open a path in UTF-8: the current folder is then used instead
+  // Windows may fail to open a path in UTF-8. In that case, uses the current folder instead
   const std::string cases = "/check/public_cases.txt";
   const std::string folder = std::ifstream(HANDOUT_FOLDER + cases) ? HANDOUT_FOLDER : ".";
   const std::string file = folder + cases, mine = folder + "/mine.html";
@@ -186,7 +186,7 @@ int check(const std::string& language, const std::vector<std::string>& which) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
     if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
     const std::string function = function_of(words.own, part, test.cases.front());
-    // printed before the test runs: it is the last line if the test never returns
+    // printed before the test runs, so that it is the last line if the test never returns
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
     shown.push_back(run(test, words, failed[function], told));
     if (!shown.back().passed && failed[function].empty()) failed[function] = test.id;

@@ -144,8 +144,8 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// Called by std::thread::hardware_concurrency(). A small number, because one thread per processor must fit into the
-/// limits.
+/// Called by std::thread::hardware_concurrency(). Returns a small number, because a program that starts one thread per
+/// processor must stay within the limits.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {

@@ -30,7 +30,7 @@ struct FieldGroup {
 };
 
 /// A layout is a sequence of NAME, NAME[COUNTS] and COUNT*( ... ). A count is a number, a name, a name minus one (n-1),
-/// or ~ for as many as there are. COUNT@( ... ) shows only the repetition whose row differs. NAME! is an angle in
+/// or ~ for all remaining numbers. COUNT@( ... ) shows only the repetition whose row differs. NAME! is an angle in
 /// radians, NAME# an index or a choice.
 struct CallLayout {
   std::vector<Field> fields;

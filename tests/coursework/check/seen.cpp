@@ -186,7 +186,8 @@ class Seen {
     return named || counted >= 6 ? factor : NAN;
   }
 
-  /// Name of a factor that varies from row to row as a list of the call does, such as m or 1/m; empty if none fits.
+  /// Name of a factor that each row takes from its entry of a list among the inputs, such as m or 1/m; empty if none
+  /// fits.
   template <class Value, class Unit>
   std::string row_multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     std::string found;
@@ -273,7 +274,7 @@ class Seen {
     return found;
   }
 
-  /// Adds explanations by differences from the expected numbers that are multiples of a named quantity.
+  /// Adds explanations for numbers that differ from the expected ones by a multiple of a named quantity.
   void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<Instead>& found) const {
     const std::string name = block_text(block);
     const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };
@@ -365,7 +366,8 @@ Answered others_of(const Case& what, const std::vector<Case>& cases, const std::
 
 namespace {
 
-/// Explanations of a case, each confirmed by another wrong case. If `by_all` is true, no case may contradict them.
+/// Explanations of a case. If there are other wrong cases, at least one must confirm an explanation; one that states a
+/// factor always needs such a case. If `by_all` is true, no other wrong case may contradict it.
 std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others, bool by_all) {
   if (!seen.exact()) return "";
   const std::vector<std::vector<Instead>> all = seen.instead();

@@ -19,7 +19,7 @@ struct Block {
 };
 std::vector<Block> blocks_of(const Texts& own, const Case& what);
 
-/// Other cases with the same student's answers to them.
+/// Other cases, and the same student's answers to them.
 using Answered = std::vector<std::pair<Case, Answer>>;
 
 /// All other cases with the same call.

@@ -52,7 +52,7 @@ void BuildPlan::write_files() {
   std::erase_if(base, [&](const auto& one) {
     return !newer && one.first != "timestepper.hpp" && one.first != "particlesystem.h";
   });
-  std::vector<std::string> left_to_the_course;  // included headers of `base`
+  std::vector<std::string> left_to_the_course;  // headers of `base` that the student's files include
   const auto lead = [&](const std::string& written, bool in_brackets) -> std::string {
     std::string name = written;
     std::replace(name.begin(), name.end(), '\\', '/');
@@ -101,8 +101,8 @@ void BuildPlan::write_files() {
 
 BuildStep BuildPlan::compile(const fs::path& source, const std::string& object, const std::string& standard,
                              const std::vector<std::string>& more) const {
-  // no-strict-aliasing and no-lifetime-dse: old code may violate aliasing rules and rely on zeroed memory; permissive:
-  // accept what Visual Studio accepts
+  // no-strict-aliasing and no-lifetime-dse, because old code may violate aliasing rules and rely on zeroed memory;
+  // permissive, because students' code may have been accepted by Visual Studio
   BuildStep step;
   step.words = {"-std=" + standard, "-O1", "-w", "-fpermissive", "-fno-strict-aliasing", "-fno-lifetime-dse"};
   for (const fs::path& forced : {ours_ / "stubs" / "prelude.h", tree_ / "in" / "names.h"})
@@ -146,7 +146,7 @@ BuildStep BuildPlan::calls(const ClassInfo& of, bool stepper, const ClassInfo* c
   // the class may be defined in a file that has its own main
   if (!is_header(of.file)) more.push_back("-Dmain=main_of_the_student");
   if (const ClassInfo* base = named(classes_, "ParticleSystem")) {
-    // a source that contains both classes has no include guard, so it is included only once
+    // a source that contains both classes has no include guard, so it must be included only once
     if (base->file != of.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(*base)));
     if (!base->scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + base->scope);
   }
@@ -160,8 +160,8 @@ bool BuildPlan::concerns(const std::string& file, const ClassInfo& of) const {
 }
 
 BuildStep BuildPlan::archive() const {
-  // the linker extracts an object only if something needs it, so an object with a missing symbol affects only its
-  // users; of several definitions it takes the first, and ours come last
+  // The linker extracts an object only if something needs the object, so a missing symbol affects only its users. Ours
+  // come last, because the linker takes the first of several definitions.
   const fs::path all = tree_ / "out" / "liball.a";
   BuildStep step{{"rcs", all.string()}, all, "", true};
   for (const BuildStep& object : objects_)

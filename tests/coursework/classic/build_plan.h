@@ -29,11 +29,11 @@ class BuildPlan {
   /// Steps for the student's sources and our replacements of missing ones. They may run in any order and in parallel. A
   /// failing step affects only its dependents.
   const std::vector<BuildStep>& objects() const { return objects_; }
-  /// The step to run next: an archive of the objects that were made.
+  /// The step to run after objects(): packs the objects that were made into an archive.
   BuildStep archive() const;
   /// Compiles our calls of the class `of` (with the class `chain` for the chain's calls) against the student's headers.
   BuildStep calls(const ClassInfo& of, bool stepper, const ClassInfo* chain = nullptr) const;
-  /// The step to run next: links the program. `child` is the object of tests/coursework/check/child_main.cpp.
+  /// The step to run after `calls`: links the program. `child` is the object of tests/coursework/check/child_main.cpp.
   BuildStep link(const BuildStep& calls, const std::filesystem::path& child) const;
   /// True if the student's `file` declares or defines the class.
   bool concerns(const std::string& file, const ClassInfo& of) const;

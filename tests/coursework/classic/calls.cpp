@@ -1,6 +1,6 @@
-// The hand-out's calls: all parts in one program, under the starter's names; and the calls for its drawings, which
-// advance the student's systems with the student's trapezoidal rule. In the grader each class has its own program
-// (base/class_calls.cpp).
+// The hand-out's calls of all parts, under the starter's names, in one program. Additional calls for the hand-out's
+// drawings advance the student's systems with the student's trapezoidal rule. In the grader each class has its own
+// program (base/class_calls.cpp).
 #include "calls.h"
 #include "TimeStepper.hpp"
 #include "looks.h"
@@ -27,7 +27,7 @@ void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
   }
 }
 
-/// Both begin with h (s) and steps; a row per step, including the start: position (3).
+/// Inputs: h (s), number of steps, and those listed below. Output: the position (3) at the start and after each step.
 ///   simple.turn       nothing more
 ///   pendulum.bounce   index of the observed particle, initial position of particle 1 (3), and the position (3) at
 ///                     which the observed particle is released
@@ -39,7 +39,7 @@ bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
   }
   PendulumSystem& pendulum = probe::ready<PendulumSystem>(2, true);
   probe::Vec state = probe::state_of(pendulum);
-  // positions and velocities alternate unless the second entry is a position
+  // positions and velocities alternate, unless the second entry is the initial position of particle 1
   const bool apart = state.at(1) == probe::vector_at(in, 3) && !(state.at(2) == probe::vector_at(in, 3));
   const auto which = static_cast<std::size_t>(in.at(2)), entry = apart ? which : 2 * which;
   state.at(entry) = probe::vector_at(in, 6);

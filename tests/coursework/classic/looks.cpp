@@ -86,8 +86,8 @@ std::string motion_shown(const Texts& own, const Findings& found) {
   return "";
 }
 
-/// The free particle with the smallest `on`. Columns `first` to `last` of its rows determine whether a particle is
-/// free.
+/// The free particle with the smallest value of on(). Columns `first` to `last` of its rows determine whether a
+/// particle is free.
 std::optional<std::size_t> least_of(const Findings& found, std::size_t first, std::size_t last,
                                     double (*on)(const Findings&, std::size_t)) {
   std::optional<std::size_t> least;
@@ -105,9 +105,9 @@ std::string gravity_shown(const Texts& own, const Findings& found) {
                   vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// Shows v' of a particle at rest and at a velocity w that it alone has, for the particle with the least drag. If the
-/// drag of a free particle is not proportional to its own velocity, shows that particle instead, and also its v' at 2 w
-/// while all others have w.
+/// Shows v' of the free particle with the least drag: at rest, and at a velocity w while all others are at rest. If the
+/// drag of another free particle is not proportional to that particle's own velocity, shows that particle instead, and
+/// also its v' at 2 w while all others have w.
 std::string drag_shown(const Texts& own, const Findings& found) {
   auto i = least_of(found, 1, 3, drag_on);
   if (!i || found.n >= most_in_order) return "";

@@ -35,7 +35,8 @@ std::string of_each(const Findings& found, std::size_t first, std::size_t last,
   return list;
 }
 
-/// "0-1: 80, 0.6" for a few springs, otherwise a line for each kind of neighbour on the grid.
+/// Stiffness per mass and rest length: "0-1: 80, 0.6" per spring if there are few, otherwise per kind of neighbour on
+/// the grid.
 std::string springs_list(const Springs& s) {
   std::string list;
   const auto add = [&](const std::string& name, const Spring& one) {

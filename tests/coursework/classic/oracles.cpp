@@ -69,8 +69,8 @@ Features motion(const Findings& found, int wanted) {
     driven[i] = constant;
     right += stays || rests || follows;
   }
-  // without ordinary anchors, particles that hang on fixed points in space count as anchors, otherwise those with a
-  // prescribed velocity
+  // If there are no ordinary anchors, particles that hang on fixed points in space count as anchors; if there are none
+  // of those either, particles with a prescribed velocity do.
   const bool any_tied = count(found.tied) > 0;
   if (few(any_tied ? found.tied : driven, anchors)) {
     if (!any_tied) right += count(driven);
@@ -90,7 +90,7 @@ double gravity_on(const Findings& found, size_t i) {
     for (int k = 0; k < 3; ++k) even[k] = -(double(a[k]) + mirrored[k]) / 2;
     // y is up; a few solutions use z
     const double here = std::abs(even[1]) < 1e-3 * std::abs(even[2]) ? even[2] : even[1];
-    // below the rounding error of springs that cancel in single precision
+    // zero if below the rounding error of springs whose pulls cancel in single precision
     draws.push_back(std::abs(here) < 1e-5 * (length(a) + length(mirrored)) ? 0 : here);
   }
   // the median, because an obstacle may affect one draw

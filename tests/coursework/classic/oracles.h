@@ -35,19 +35,20 @@ bool close(const probe::Plain& a, const probe::Plain& b);
 /// Number of entries returned by evalF per entry of the state | deterministic | stored state unchanged | depends on the
 /// argument instead of the stored state
 Features purity(const Findings& found);
-/// Share of the `wanted` particles that exist | share of particles with x' = v, or 0 for the fixed ones | number of
-/// fixed particles | share of fixed particles at rest at the start, for which x' = v implies no motion
+/// Share of the `wanted` particles that exist | share of particles that are fixed or have x' = v | number of fixed
+/// particles, which have x' = 0 or v' = 0 | share of fixed particles that stay: x' = 0, or v' = 0 and v = 0 at the
+/// start
 Features motion(const Findings& found, int wanted);
 /// Gravity acts downwards on the moving particles (-1: upwards) | equal for all of them
 Features gravity(const Findings& found);
-/// gravity_on: downward acceleration of particle i (m/s^2), the median of the draws. drag_on: rate (1/s) at which a
-/// velocity decays in row i, negative if it grows. is_free: true if any of columns `first` to `last` in the rows of
-/// particle i is nonzero.
+/// gravity_on: downward acceleration of particle i (m/s^2), the median of the draws. drag_on: rate (1/s) at which the
+/// velocity of row i decays, negative if the velocity grows. is_free: true if any of columns `first` to `last` in the
+/// rows of particle i is nonzero.
 double gravity_on(const Findings& found, std::size_t i);
 double drag_on(const Findings& found, std::size_t i);
 bool is_free(const Findings& found, std::size_t i, std::size_t first, std::size_t last);
-/// proportional_drag: v' of particle i at 2 w, extrapolated from 0 and w. is_proportional: the measured v', with all
-/// other particles at w, is close to it.
+/// proportional_drag: v' of particle i at 2 w, extrapolated from its v' at 0 and at w. is_proportional: true if the v'
+/// measured at 2 w, while all other particles have w, is close to this value.
 probe::Plain proportional_drag(const Findings& found, std::size_t i);
 bool is_proportional(const Findings& found, std::size_t i);
 /// Drag opposes the velocity (-1: acts along it) | proportional to the velocity
@@ -56,8 +57,8 @@ Features drag(const Findings& found);
 /// Share of moving particles with at least one spring | springs contract when long (-1: expand) | linear | have a rest
 /// length | equal at both ends
 Features spring_law(const Findings& found);
-/// Share of neighbours that are joined | springs between other particles | fixed: 1 an end (or both), 0 none, 2 another
-/// particle
+/// Share of neighbours that are joined | springs between other particles | what is fixed: 1 an end (or both), 0
+/// nothing, 2 another particle
 Features chain_links(const Findings& found);
 
 /// Offset on the grid from one end of a spring to the other.
@@ -76,7 +77,7 @@ Features cloth_others(const Findings& found);
 /// Rest lengths relative to that of a structural spring: of shear springs, of flexion springs along rows and along
 /// columns; 0 if there are none.
 Features cloth_lengths(const Findings& found);
-/// Share of fixed particles out of at least two | they are corners, or evenly spaced on one border | share of fixed
+/// Number of fixed particles, as a share of two | they are corners, or symmetric on one border | share of fixed
 /// particles at rest at the start
 Features cloth_pins(const Findings& found);
 

@@ -26,7 +26,7 @@ Springs springs_of(const probe::Findings& found) {
       if (!std::isfinite(spring.k) || !std::isfinite(spring.rest)) continue;
       const double foreseen = spring.k * (s[2] - spring.rest);
       const double size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-      // single precision with a dozen other springs causes errors of 1e-5; a nonlinear law deviates by a tenth
+      // rounding of a dozen springs to single precision causes errors of 1e-5; a nonlinear law deviates by a tenth
       spring.linear =
           std::abs(p[2] - foreseen) < 0.01 * size && std::max({across[0], across[1], across[2]}) < 0.01 * size;
     }
@@ -69,7 +69,7 @@ std::optional<Grid> grid_of(const Springs& s) {
     if (s.particles % columns != 0) continue;
     const Grid grid{s.particles / columns, columns};
     int fit = 0;
-    // springs of a family count in favour, all others against
+    // springs of a family count in favour of the grid, all others against it
     for (const Spring& one : s.all) fit += of_a_family(grid, one.a, one.b) ? 1 : -1;
     if (fit > most) most = fit, best = grid;
   }
@@ -136,7 +136,7 @@ Features spring_law(const Findings& found_here) {
     plus += one.k > 1e-6 * stiffest;
     minus += one.k < -1e-6 * stiffest;
     linear += one.linear;
-    // a spring without a rest length pulls at any length; 1e-3 is above rounding and below any value seen so far
+    // without a rest length, `rest` is zero up to rounding; 1e-3 is above rounding and below all lengths seen so far
     rest += one.rest > 1e-3;
     if (!shows(s, one.b, one.a)) continue;
     const auto back = by_pair.find({one.b, one.a});
@@ -244,8 +244,8 @@ Features cloth_lengths(const Findings& found_here) {
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0};
   const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
-  // rows and columns may be spaced differently, so each family is compared with the spring in its own direction.
-  // Another test detects a missing diagonal
+  // Rows and columns may be spaced differently, so each family is compared with structural springs in its own direction
+  // (diagonals: in both). Another test detects a missing diagonal.
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
   const double diagonal = std::hypot(row, column) / std::sqrt(2.0);
   const double one = ratio(rest_of(s, *grid, 1, 1), diagonal), other = ratio(rest_of(s, *grid, 1, -1), diagonal);

@@ -1,5 +1,5 @@
-// Parses C++ just enough to find the classes that a file declares, and lists the classes that may take each role, in
-// the order in which they are tried. Uses a tokeniser instead of regular expressions, because the text is untrusted.
+// Parses C++ just enough to find the classes that a file declares, and lists the candidate classes for each role in the
+// order of trial. Uses a tokeniser instead of regular expressions, because the text is untrusted.
 #pragma once
 
 #include <map>
@@ -48,11 +48,11 @@ using ClassList = std::vector<ClassInfo>;
 
 struct Candidate {
   const ClassInfo* of;
-  bool named;   // has the role's name, or the student's grade.toml names it: takes the role even if it is wrong
-  bool likely;  // named, or has the name of the other role that is tested with this one
+  bool named;   // has the role's name, or is named in the student's grade.toml: gets the role even if it is wrong
+  bool likely;  // named, or has the name of the other role of the same part
 };
-/// Candidates in the order of trial. If `wanted` (role -> class) names a class, only this one; otherwise first the
-/// classes with the role's name, then all others of the same kind that do not have the name of a role of another part.
+/// Candidates in the order of trial. If `wanted` (role -> class) names a class, only that class; otherwise first the
+/// classes with the role's name, then others of the same kind, except those named like a role of another part.
 std::vector<Candidate> candidates(const ClassList& all, const Role& role,
                                   const std::map<std::string, std::string>& wanted);
 /// The first class of this name, or null.
@@ -70,9 +70,9 @@ struct Selection {
   std::vector<Remark> notes;        // on files that were left out
   std::vector<std::string> others;  // folders and files with other versions, which further tries should prefer
 };
-/// Chooses the files of read_submission() to compile: none of the hand-out's check, and vecmath only if its sources
-/// were handed in. Of several versions, chooses the one below `preferred`, then non-backups, then sources named after
-/// their class, then the one in the fewest folders.
+/// Chooses which files of read_submission() are compiled: none of the hand-out's check, and vecmath only if its sources
+/// were handed in. Of several versions, prefers the one below `preferred`, then one that is not a backup, then a source
+/// named after its class, then the one in the fewest folders.
 Selection choose_files(const Files& all, const std::string& preferred = "");
 
 }  // namespace coursework::classic

@@ -35,8 +35,8 @@ struct Grid {
 };
 /// True if a spring between a and b would be structural, shear or flexion.
 bool of_a_family(const Grid& grid, int a, int b);
-/// Grid of the particles by their initial positions, row by row. If these form no grid, the grid that fits the springs
-/// best.
+/// Grid of the particles by their initial positions, row by row. If the positions form no grid, returns the grid that
+/// fits the springs best.
 std::optional<Grid> grid_of(const Springs& springs);
 
 }  // namespace coursework::classic

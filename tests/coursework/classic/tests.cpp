@@ -67,8 +67,8 @@ Numbers moved(const Numbers& x, double h, const Numbers& f) {
 template <bool trapezoidal>
 constexpr const char* path_of = trapezoidal ? "trapezoidal.path" : "euler.path";
 
-/// A step of a linear system is x + h A x, plus h^2/2 A A x for the trapezoidal rule. A system with squares
-/// distinguishes rules with the same polynomial (such as the midpoint rule).
+/// A step of a linear system is x + h A x, plus h^2/2 A A x for the trapezoidal rule. The midpoint rule, for example,
+/// has the same polynomial; a system with squares tells such rules apart.
 template <bool trapezoidal>
 std::vector<Case> step(Random& random) {
   std::vector<Case> cases;
@@ -156,8 +156,8 @@ std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "fle
 std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", r, {1, 0, 1})}; }
 std::vector<Case> cloth_law(Random& r) { return {probe("cloth.springs", "law", r, {1, 1, 1, 1, 1})}; }
 std::vector<Case> cloth_lengths(Random& r) {
-  // sqrt 2 rounded to 1.41 differs by 0.004, a change of a shear spring by 1 % by 0.014; stiff springs cause rounding
-  // errors below 0.001
+  // Accepts 1.41 instead of sqrt 2 (difference 0.004), and rejects shear springs that are wrong by 1 % (0.014).
+  // Rounding errors of stiff springs are below 0.001.
   return {probe("cloth.springs", "lengths", r, {std::sqrt(2.0), 2, 2}, 0.007)};
 }
 std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", r, {1, 1, 1})}; }

@@ -19,7 +19,7 @@ namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
 
-// replace the output of a compiler that was stopped or not started for lack of time, or ran out of memory
+// replace the compiler's output if it was stopped or not started because time was up, or if it ran out of memory
 constexpr std::string_view too_long = "the compiler did not come to an end in time";
 constexpr std::string_view too_much = "the compiler needed more memory than there is";
 
@@ -167,8 +167,9 @@ class Choice {
       if (!all.empty()) first.emplace(all.front().of, role.stepper);
     }
     build(first);
-    // in order of preference: the only candidate or the first that earns all points; the first that has the role's name
-    // and can be built; the one that earns most points; the first likely one, for its error message
+    // In order of preference: 0 the only candidate, if likely, or the first that earns all points; 1 the first that has
+    // the role's name and can be built; 2 the one that earns most points; 3 the first likely one, for its error
+    // message.
     for (const int wish : {0, 1, 2, 3})
       for (const Role& role : roles()) {
         const std::vector<Candidate>& all = open[role.name];
@@ -442,8 +443,8 @@ class WholeBuilder : public Builder {
     return earned;
   }
 
-  /// The steppers must not lose points for a student's base class that cannot be used alone or loses the state:
-  /// replaces it by the starter's base class, if the steppers compile with that.
+  /// Replaces the student's base class by the starter's, if it cannot be used alone or loses the state, and if the
+  /// steppers compile with the starter's. The steppers must not lose points for the student's base class.
   void mend_base(const Submission& submission, Files files, Programs& programs, const fs::path& folder,
                  unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};

@@ -15,7 +15,7 @@
 namespace coursework::classic {
 
 struct Programs {
-  std::map<std::string, Built> of;  // key: part; `missing`: no class takes the part's role
+  std::map<std::string, Built> of;  // key: part; `missing`: no class has the part's role
   std::vector<Remark> notes;        // on the choice of classes and files
   std::string base_file;            // the student's file with the base class of all systems; empty if it is ours
   int points = 0;                   // earned in the public tests; set only if `rate`

@@ -85,7 +85,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
   Canaries canaries_;
 };
 
-/// Keys of the accepted texts, from the second line of a cheat. If the numbers may differ, their count may differ, too.
+/// Keys of the accepted texts, from the second line of a cheat. Where "differs" is accepted, "size" is accepted, too.
 std::vector<std::string> expected(const fs::path& cheat) {
   std::istringstream lines(content_of_file(cheat));
   std::string line;

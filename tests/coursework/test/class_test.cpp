@@ -59,7 +59,7 @@ TEST_F(TinyClass, RegradesTheTestsThatAreNamedAndKeepsTheRest) {
   EXPECT_EQ(earned_in(out / "ada.json"), (std::vector<double>{0, 20, 0, 0, 10, 0}));
   EXPECT_EQ(all[0].result.tests[0].said, "Wrong then.");
   EXPECT_NE(content_of_file(out / "ada.html").find("Total: 30 of 100 points"), std::string::npos);
-  // program and assignment have not changed since the stored result, so that nothing runs again
+  // nothing runs again, because program and assignment have not changed since the result was stored
   EXPECT_EQ(grade()[0].result.earned(), 30);
 }
 

@@ -34,7 +34,7 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
         count_(static_cast<std::size_t>(number_from("CORPUS_MISTAKES", 3))),
         seeds_(number_from("CORPUS_SEEDS", 2)) {}
 
-  /// The first of the mistakes that have no name: a third of CORPUS_MISTAKES suffices.
+  /// The first of a list of mistakes without a name; a third as many as CORPUS_MISTAKES suffice.
   template <class T>
   std::vector<T> first(std::vector<T> all) const {
     all.resize(std::min(all.size(), (count_ + 2) / 3));
@@ -79,7 +79,7 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
       EXPECT_EQ(lost(ask(part, program, seed)), std::set<std::string>()) << what << ", seed " << seed;
   }
 
-  /// Expects that the source is a mistake, and that none of the known mistakes is named for it.
+  /// Expects that the source is wrong, and that no known mistake is named as its cause.
   void expect_no_name(const std::string& part, const std::string& source, const std::string& what) const {
     const fs::path program = builder_->ours(part, source);
     for (int seed = 0; seed < seeds_; ++seed) {

@@ -94,7 +94,7 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
-// As in the hand-out, students may add headers next to the parts, also with names of our headers, and may call
+// As in the hand-out, students may add headers next to the parts, even under the names of our headers, and may call
 // functions that an earlier part defines.
 TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   Submission submission =

@@ -78,11 +78,11 @@ TEST(Handout, HoldsWhatTheStudentNeeds) {
   }
 }
 
-/// Secret lines are those of files that are not handed out, except lines that also occur in files that are handed out.
+/// A line is secret if it occurs in a file that is not handed out, and in no file that is handed out.
 TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
   for (const Assignment& assignment : assignments()) {
     std::set<std::string> secret;
-    std::string shown, judging;  // the whole text, because a line may be the beginning of a longer one
+    std::string shown, judging;  // texts of whole files, because a line may be the beginning of a longer one
     const fs::path from = assignment.folder();
     std::vector<fs::path> secrets;
     for (const fs::path& file : files_below(from)) {
@@ -90,7 +90,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
       bool given = false;
       for (const char* begin : {"handout.", "starter/", "calls", "texts.", "stubs/"})
         given = given || inside.starts_with(begin);
-      // the code that finds features in a whole program's answers is also handed out
+      // the code that judges a whole program's answers by their features is also handed out
       bool judges = false;
       if (assignment.takes_whole_program())
         for (const char* begin : {"probe/", "looks", "motion", "oracles", "replay", "shapes", "springs"})
@@ -102,7 +102,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
     }
     for (const fs::path& file : files_below(from.parent_path() / "check")) shown += content_of_file(file) + "\n";
     for (const fs::path& file : secrets) {
-      // sources of the grader have some lines in common; but files that judge must not contain any line of a solution
+      // The grader's own sources may share lines with the code that judges. A line of a solution there is a leak.
       const std::string inside = fs::relative(file, from).generic_string();
       const bool ours =
           (inside.starts_with("base/") || inside.find('/') == std::string::npos) && file.extension() != ".txt";

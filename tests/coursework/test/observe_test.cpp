@@ -193,7 +193,7 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
       "Tried with other numbers: with v = 0 your answers are right. They are wrong only where this quantity matters.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
-  // without drag the answers are right by accident, for particles of mass 1 and 1.6
+  // without drag, the answers for particles of mass 1 and 1.6 are right by accident
   EXPECT_EQ(observed(
                 [](const Numbers& in) {
                   return rates(in, [](double m, double g, double drag, double v) {

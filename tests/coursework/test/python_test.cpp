@@ -55,7 +55,7 @@ class PythonPrograms : public testing::TestWithParam<std::string> {
     write_python_handout(assignment_, handout_.path / "given");
   }
 
-  /// The tests of the part that fail, public and hidden, in one interpreter; also sets the runs.
+  /// Ids of the part's tests that fail with public or, if `hidden`, hidden cases, all in one interpreter. Sets `runs`.
   std::set<std::string> lost(const std::string& part, const std::string& source, bool hidden,
                              std::vector<TestRun>& runs) {
     const TemporaryFolder scratch("built");

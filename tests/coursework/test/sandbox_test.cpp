@@ -102,7 +102,7 @@ TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
 
 TEST_P(SandboxTest, ThreadsRunWhereNoProcessMayUpToTheirLimit) {
   EXPECT_TRUE(done(sandbox().run(job("threads", "40"))));
-  Job waiting = job("worker", "4");  // the first thread waits for a busy thread, so that the program is not idle
+  Job waiting = job("worker", "4");  // the first thread waits for a busy one, so the program as a whole is not idle
   waiting.limits = {.cpu = 9, .wall = 60, .idle = 2};
   EXPECT_TRUE(done(sandbox().run(waiting)));
   if (GetParam() == "bare") return;  // this sandbox does not limit threads
@@ -185,7 +185,7 @@ TEST_P(SandboxTest, WhatReachesOutIsRefused) {
   int count = 0;
   for (std::string line; std::getline(lines, line) && line != "done"; ++count) {
     const bool absent = line.starts_with("clone3");
-    const bool unmapped = line == "setuid: Invalid argument";  // a namespace without a root
+    const bool unmapped = line == "setuid: Invalid argument";  // the namespace has no root user
     EXPECT_TRUE(unmapped || line.ends_with(absent ? "Function not implemented" : "Operation not permitted")) << line;
   }
   EXPECT_EQ(count, 17);

@@ -39,8 +39,8 @@ class Asker {
   virtual void store(const State& state) = 0;
   /// Entries of the stored state.
   virtual Some stored(const Indices& which) = 0;
-  /// Both evaluate evalF at `given`. some() returns a few entries. changed() returns all entries; `known` is an earlier
-  /// result that differs in few entries, or empty.
+  /// The next two functions evaluate evalF at `given`. some() returns a few entries, changed() all of them. `known` is
+  /// an earlier result from which the entries differ in few places, or empty.
   virtual Some some(const State& given, const Indices& which) = 0;
   virtual State changed(const State& given, const State& known) = 0;
   /// Ends the record with one more random number, `drawn`, which shows that the answers belong to this seed.

@@ -51,8 +51,8 @@ class Forces {
   }
 
  private:
-  /// `from_there`: count changes relative to the state that was read back after storing it, because a base class that
-  /// loses the state costs points elsewhere.
+  /// If `from_there`, counts changes relative to the state that was read back after storing. A base class that loses
+  /// the state then loses no points here, but only in another test.
   void purity(Findings& out, bool from_there) {
     const State stored = around(1), given = around(1);
     const Indices chosen = draws_.sample(start_.size());
@@ -80,13 +80,14 @@ class Forces {
 
   void gravity(Findings& out) {
     out.n = n_;
-    // the mirror is the other end of a tie, so that the tie's pull is reflected like all others
+    // mirrors at the other end of a tie, if there is one, so that the tie's pull is reflected like all others
     const Plain mirror = silent_.empty() ? far_ : home_[x(silent_.front())];
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(0);
       State mirrored = given;
       for (std::size_t i = 0; i < n_; ++i) {
-        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, as is the next line (see away())
+        const Plain from =
+            plus(given[x(i)], -1, mirror);  // exact if mirror is far_, as is the next line (see corner())
         mirrored[x(i)] = plus(mirror, -1, from);
       }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
@@ -147,9 +148,9 @@ class Forces {
     out.repeats = alike(f, derivative(state, f)) && pairs(state, f, chosen, out.pulls);
   }
 
-  /// Returns false if evalF is not deterministic. Moves particles in an unpredictable order, with as many evaluations
-  /// in between that move none, so that answers recorded with another seed do not fit, although the springs join the
-  /// same particles.
+  /// Returns false if evalF is not deterministic. Moves one particle at a time, in random order. As many evaluations,
+  /// at random places in between, move no particle. Answers recorded with another seed therefore do not fit, although
+  /// the springs join the same particles.
   bool pairs(State& state, const State& f, const Indices& chosen, std::vector<Pull>& found) {
     Indices order = chosen;
     order.resize(2 * chosen.size(), n_);
@@ -199,9 +200,10 @@ class Forces {
     return true;
   }
 
-  /// Leaves b at an arbitrary position. If a is tied to the position of b, moves all particles instead, which changes
-  /// only the tie. `off` receives the relative part of a's pull that is not reflected when a is on the other side; it
-  /// is large for a tie to another position.
+  /// Measures the pull on a at three distances from b, and leaves b displaced. If `is_tie`, moves all particles instead
+  /// of b, which changes only the tie from a to b's initial position. Apart from a constant, the pull should be
+  /// reversed when a is on the other side of b. `off` receives the relative deviation from this, which is large if a is
+  /// tied to another position.
   Pull pair(State& state, std::size_t b, std::size_t a, bool is_tie, float* off = nullptr) {
     float apart = length(plus(start_[x(b)], -1, start_[x(a)]));
     if (!(apart > 1e-6f)) apart = spacing_;
@@ -232,8 +234,8 @@ class Forces {
     return found;
   }
 
-  // Stores the state first: an evalF that reads the stored state then still shows its forces, and loses points only in
-  // the test of this property.
+  // Stores the state first. An evalF that reads the stored state instead of its argument then still returns the right
+  // forces here, and loses points only in the test of this mistake.
   State derivative(const State& state, const State& known = {}) {
     asker_.store(state);
     return asker_.changed(state, known);
@@ -266,9 +268,10 @@ class Forces {
     apart_ = fits[1] > fits[0];
   }
 
-  /// Avoids a sphere or a floor of the student's near the initial state, where forces depend on the position. If forces
-  /// are equal at two places, far from each other and both as distant as any obstacle seen so far, all questions are
-  /// asked at the first of them. If forces differ there too (particles attracted to a place), nothing is moved.
+  /// Avoids obstacles such as a sphere or a floor near the initial state, where forces depend on the position. Compares
+  /// the forces at two places that are far from each other and from the initial state, beyond all obstacles seen so
+  /// far. If the forces are equal, all questions are asked at the first place. If not (for example because a place
+  /// attracts the particles), nothing is moved.
   bool leave_obstacles() {
     Plain low = start_[x(0)], high = low;
     for (std::size_t i = 0; i < n_; ++i)
@@ -277,7 +280,7 @@ class Forces {
         high[k] = std::fmax(high[k], start_[x(i)][k]);
       }
     const Plain centre = plus(low, 0.5f, plus(high, -1, low));
-    // twenty times the extent of the system, and at least 20; obstacles are as large as the system
+    // distance of the places: twenty times the extent of the system, at least 20; obstacles are as large as the system
     const float size = 20 * std::fmax(length(plus(high, -1, low)), 1.0f);
     if (!(size < 1e6f)) return false;
     const State given = around(1);
@@ -286,8 +289,8 @@ class Forces {
     int alike = 0;
     float largest = 0;
     for (const Plain& one : first) largest = std::fmax(largest, length(one));
-    // in those places positions are rounded to 1e-5 of the extent, and springs are stretched by about a tenth of their
-    // length
+    // Positions at those places are rounded to 1e-5 of the extent. This changes forces by less than 1e-2, because
+    // springs are stretched by about a tenth of their length.
     for (std::size_t i = 0; i < n_; ++i) alike += length(plus(first[i], -1, second[i])) <= 1e-2f * largest;
     if (!(largest > 0) || alike < static_cast<int>(n_)) return false;
     start_ = away(start_, centre, size, 0);

@@ -13,7 +13,7 @@ bool simple(const std::string& call, const coursework::Numbers& in, coursework::
   if (call != "field") return false;
   T& system = ready<T>(1, false);
   const std::size_t size = state_of(system).size();
-  // all further entries of the two vectors differ
+  // fills each vector with the first entry of the other, so that they differ in every entry
   Vec given(size, vector_at(in, 3)), stored(size, vector_at(in, 0));
   given[0] = vector_at(in, 0);
   stored[0] = vector_at(in, 3);
@@ -30,7 +30,7 @@ template <class Pendulum, class Chain>
 bool pendulum(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   const int count = static_cast<int>(in[0]);
   const auto seed = static_cast<std::uint64_t>(in[1]);
-  // if the argument turns out to be the number of state entries, requests twice as many
+  // if the constructor's argument turns out to be the number of state entries, passes twice the count
   const std::size_t least = 2 * static_cast<std::size_t>(count);
   if (call.rfind("pendulum.", 0) == 0)
     return answered(ready<Pendulum>(count, true, least, 2 * count), seed, call.substr(9), out);
@@ -49,7 +49,7 @@ template <class T>
 bool cloth(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   if (call.rfind("cloth.", 0) != 0) return false;
   const int side = static_cast<int>(in[0]);
-  // if the single argument turns out to be the total number of particles, passes the total instead
+  // if the constructor's argument turns out to be the total number of particles, passes the total instead
   T& system = ready<T>(side, false, 2 * side * side, side * side);
   return answered(system, static_cast<std::uint64_t>(in[1]), call.substr(6), out);
 }

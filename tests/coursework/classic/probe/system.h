@@ -44,8 +44,8 @@ struct Zero {
 };
 
 /// Discards the output of an evalF that prints. Nobody reads the output of ten thousand calls, and the grader would
-/// stop the program. The hand-out's check keeps the output, because it prints to the same streams and the student reads
-/// it.
+/// stop the program because of its amount. The hand-out's check keeps the output, because the check's own report goes
+/// to the same streams, and because the student may want to read the output.
 inline void quiet() {
 #ifdef OWN_PROCESS
   static bool done = false;
@@ -151,8 +151,8 @@ void fill_state(T& system) {
     system.reset();
 }
 
-/// A system that was constructed with `count`, whatever the constructor counts. If the state then has fewer than
-/// `least` entries, a system constructed with `other_count`, if its state is longer.
+/// A system constructed with `count`, whatever the constructor counts. If the state of that system has fewer than
+/// `least` entries, constructs one with `other_count`, and returns the system with the longer state.
 template <class T>
 T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
   const auto made = [&](int of) {

@@ -1,5 +1,5 @@
-// A window to look at the systems in: keys 1 to 4 choose one, t changes the stepper, space stops and goes on. The
-// grader does not run it.
+// Shows the systems in a window: keys 1 to 4 choose a system, t changes the stepper, space pauses and resumes. The
+// grader does not run this program.
 #include <GL/glut.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Particles one below the other on springs; the first one is fixed. With two it is a pendulum, with more a chain.
+// Particles that hang on springs, one below the other; the first one is fixed. Two form a pendulum, more form a chain.
 #ifndef PENDULUMSYSTEM_H
 #define PENDULUMSYSTEM_H
 

@@ -27,7 +27,7 @@ Found differences(const Case&, const Numbers& raw) {
   return steps;
 }
 
-/// Cases that compare only the differences of successive sums; the first sum is free.
+/// Cases that compare only the differences of successive sums; the first sum may have any value.
 std::vector<Case> steps_cases(Random& random) {
   Case one{"sums", {}, {}, 1, 1e-12, "number", "step", -1, 0};
   for (int i = 0; i < 10; ++i) one.in.push_back(random.uniform(1, 2));
