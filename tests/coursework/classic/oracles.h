@@ -32,6 +32,8 @@ bool zero(const probe::Plain& v);
 /// True if two single-precision results agree up to rounding.
 bool close(const probe::Plain& a, const probe::Plain& b);
 
+// The following comments list the features that a function returns, separated by `|`.
+
 /// Number of entries returned by evalF per entry of the state | deterministic | stored state unchanged | depends on the
 /// argument instead of the stored state
 Features purity(const Findings& found);

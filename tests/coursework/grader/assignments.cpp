@@ -33,7 +33,7 @@ std::span<const Assignment> assignments() {
       a4_collision(),       // collision with a sphere
       a5_stiff(),           // implicit Euler
       a6_solvers(),         // implicit Euler, solved iteratively
-      m1_misconceptions(),  // tests five common beliefs
+      m1_misconceptions(),  // tests of five common beliefs
       classic_particles(),  // all topics, in the interface of the classic course
   };
   return all;

@@ -178,8 +178,8 @@ class PartBuilder : public Builder {
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1", "-pthread"});
-    // An index outside a vector or an array ends the program. Assignments with charts are an exception, because charts
-    // measure the CPU time of unchecked code.
+    // An index outside a vector or an array ends the program, unless the program is for charts, which measure the CPU
+    // time of unchecked code.
     if (checking)
       command_.insert(command_.end(), checking_options().begin(), checking_options().end());
     else if (!fs::exists(folder_ / "calls_engine.cpp"))

@@ -59,7 +59,7 @@ double changed_number(const Change& change, const Param& p, const Param* q, cons
   const double value = in[p.at[i]];
   const auto of_row = [&](std::size_t row) { return in[p.at[row * p.columns + i % p.columns]]; };
   const std::size_t row = i / p.columns, last = p.rows - 1;
-  // q has a single number, or a number for each number or row of p
+  // q has a single number, one for each row of p, or one for each number of p
   const double other = q ? in[q->at[q->scalar() ? 0 : q->columns == 1 && q->rows == p.rows ? row : i]] : 0;
   switch (change.kind) {
     case Change::zero:

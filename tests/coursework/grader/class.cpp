@@ -58,7 +58,7 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// Complete result of an earlier grading, if its fingerprint ends with `ending`. Returns its fingerprint, too.
+/// Complete result of an earlier grading, if its fingerprint ends with `ending`. Also returns that fingerprint.
 std::optional<Result> earlier_result(const fs::path& file, const Assignment& assignment, const std::string& ending,
                                      std::string& fingerprint) {
   if (!fs::exists(file)) return {};

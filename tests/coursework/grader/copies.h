@@ -19,7 +19,7 @@ bool in_library(const std::string& path);
 bool is_utf8(std::string_view text);
 /// The text as UTF-8 without a byte-order mark. Converts UTF-16 with a byte-order mark, which some editors write, and
 /// GB18030 (which includes GBK and GB2312). Unconverted, the second byte of a GB18030 character may be a backslash,
-/// which would continue a comment in the next line.
+/// which would extend a comment to the next line.
 std::string plain_utf8(std::string text);
 
 /// Order of two versions of a file: prefers the version in the copy with more files. The copy of a version is its

@@ -35,7 +35,7 @@ struct GradeOptions {
 Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
              const GradeOptions& options);
 
-/// The files that the assignment requires: one per part, or none if it takes a whole program.
+/// The files that the assignment requires: one per part, or none if students hand in a whole program.
 std::vector<std::string> wanted_files(const Assignment& assignment);
 
 /// read_submission() with the assignment's parameters.

@@ -37,8 +37,8 @@ std::string folded(const std::string& text) {
   return begin == std::string::npos ? "" : lower(text.substr(begin, end - begin + 1));
 }
 
-/// Letters and digits only, in lower case: "Lovelace, Ada" in an export is "lovelaceada" in Canvas's file names, and
-/// Moodle drops apostrophes.
+/// Letters and digits only, in lower case, because "Lovelace, Ada" in an export is "lovelaceada" in Canvas's file
+/// names, and Moodle drops apostrophes.
 std::string letters_of(const std::string& text) {
   std::string out;
   for (const char c : lower(text))

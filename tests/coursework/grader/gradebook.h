@@ -15,7 +15,7 @@ class Gradebook {
   /// Reads an export of `layout` ("moodle", "canvas", "csv"). `column` is the name of the column to fill. If it is
   /// empty, the column is "Grade" in Moodle's worksheet, "points" or "grade" in other tables, otherwise the one whose
   /// name contains the assignment's. Throws InputError with the file if it is not comma-separated UTF-8, lacks the
-  /// layout's columns, has no such column to fill or several, or states a maximum other than `points`.
+  /// layout's columns, has no column to fill, or several, or states a maximum other than `points`.
   Gradebook(const std::string& layout, const std::filesystem::path& file, const std::string& column,
             const Assignment& assignment, double points);
 

@@ -11,8 +11,8 @@
 
 namespace coursework {
 
-/// CPU time (s) that any code may use for the calls of one test. Its slowest test takes the classic solution 0.06 s,
-/// and the slowest correct code seen so far, whose evalF takes 5 ms, half of this limit.
+/// CPU time (s) that any code may use for the calls of one test. The slowest test takes 0.06 s with the classic
+/// solution. With the slowest correct code seen so far, whose evalF takes 5 ms, it takes half of this limit.
 constexpr double least_cpu = 30;
 /// Code may use this multiple of the official solution's CPU time for the same calls on the same machine.
 constexpr double times_reference = 20;

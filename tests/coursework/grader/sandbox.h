@@ -39,7 +39,7 @@ struct Job {
 
 /// Outcome. The first that applies: we stopped the program (wall, idle, output, answers); it exceeded its CPU time
 /// (cpu); it ran out of memory, which it reported before it failed (last line `memory` on descriptor 3, or "bad_alloc"
-/// or "out of memory" in captured_output), or the kernel killed it near this limit; a signal; an exit code.
+/// or "out of memory" in captured_output), or the kernel killed it near its memory limit; a signal; an exit code.
 struct End {
   enum class How { exited, signal, cpu, wall, idle, memory, output, answers } how = How::exited;
   int code = 0;                 // exit status, or the signal

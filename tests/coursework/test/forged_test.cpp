@@ -1,4 +1,5 @@
-// A whole program that sends prepared answers before main, with the true token: they do not fit the actual questions.
+// A whole program that sends prepared answers before main, with the true token, earns nothing: these answers do not fit
+// the actual questions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -141,7 +142,7 @@ TEST_P(Forged, WhatTheGraderFindsEarnsNothingWhenItIsSent) {
   EXPECT_EQ(passed(forging(lines), 2), std::set<std::string>());
 }
 
-/// For a large cloth, most answers contain only a few of the numbers: the record stays below the limit on output.
+/// For a large cloth, most answers contain only a few of the numbers, so that the record stays below its size limit.
 class LargeCloth : public Forged {};
 
 TEST_P(LargeCloth, LeavesARecordThatIsSmallEnough) {

@@ -85,7 +85,7 @@ TEST(Seen, AFactorNeedsASecondCase) {
   EXPECT_EQ(seen_text(common_texts(), layouts(), what, answer(what, 1.0 / 6)), split);
   EXPECT_EQ(told(1.0 / 6, 1.0 / 3), split);
   EXPECT_EQ(told(1.0 / 6, 1.0 / 6), split + " Where v' is wrong, it is the right value times 1/6.");
-  // drag = 0.2 in this case, so that 0.1 is drag/2 here and 1/10 nowhere
+  // drag is 0.2 here and 0.3 in the other case, so both factors are drag/2
   EXPECT_EQ(told(0.1, 0.15), split + " Where v' is wrong, it is the right value times drag/2.");
 }
 

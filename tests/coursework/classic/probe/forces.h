@@ -86,8 +86,7 @@ class Forces {
       const State given = around(0);
       State mirrored = given;
       for (std::size_t i = 0; i < n_; ++i) {
-        const Plain from =
-            plus(given[x(i)], -1, mirror);  // exact if mirror is far_, as is the next line (see corner())
+        const Plain from = plus(given[x(i)], -1, mirror);  // exact if mirror is far_, like the next line (see corner())
         mirrored[x(i)] = plus(mirror, -1, from);
       }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
