@@ -1,4 +1,4 @@
-"""Calls of the steppers by check.py. The numbers are in the same order as in C++."""
+"""The calls that check.py makes of the steppers. The numbers are in the same order as in C++."""
 import math
 
 import numpy as np

@@ -74,8 +74,8 @@ struct Particles {
 
 }  // namespace
 
-/// engine.RULE. Input: step (s), steps between samples, number of samples, then the particles as read above. Output:
-/// the state at the start and at each sample, evaluations of the right-hand side, and the CPU time of the steps (s).
+/// engine.RULE. Input: step (s), steps between samples, number of samples, then the input of Particles. Output: state
+/// at the start and at each sample, number of evaluations of the right-hand side, and CPU time of the steps (s).
 bool answer_engine(const std::string& call, const Numbers& in, Numbers& out) {
   const auto step = call == "engine.euler"         ? euler_step
                     : call == "engine.trapezoidal" ? trapezoidal_step

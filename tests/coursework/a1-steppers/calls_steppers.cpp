@@ -1,4 +1,4 @@
-// Test systems given by numbers, and the quantities recorded while a stepper advances them.
+// Test systems, read from the numbers of a call, and the quantities recorded while a stepper advances them.
 #include "calls_steppers.h"
 
 #include <cmath>

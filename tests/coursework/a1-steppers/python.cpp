@@ -1,4 +1,4 @@
-// The steppers if the student's part is in Python. The macro PART is the index of this part.
+// The steppers for a student who writes a part in Python. The macro PART is the index of this part.
 #include "../python/remote.h"
 #include "steppers.h"
 

@@ -7,7 +7,7 @@
 namespace coursework::a1 {
 
 struct Node {
-  double time, weight;  // quadrature node over one step, both in units of h
+  double time, weight;  // a quadrature node and its weight over one step, in units of h
 };
 
 struct Stage {

@@ -1,4 +1,4 @@
-// Seeded systems: the numbers of a call, and the solution by the rule.
+// Seeded systems: the numbers of a call, and the states that a rule computes for them.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct Linear {
   Eigen::VectorXd z;  // n + 2: initial x, t, 1
 };
 
-/// Round-off bound: a step of n numbers takes fewer than 10 n + 40 sums and products in any style. Each has an error of
-/// half an epsilon times `size`, a bound on the numbers. The errors of steps add up.
+/// Round-off bound: a step of n numbers takes fewer than 10 n + 40 sums and products, however it is written. Each has
+/// an error of half an epsilon times `size`, where `size` bounds the numbers. The errors of all steps add up.
 inline double round_off(int n, int steps, double size) { return steps * (10 * n + 40) * 1.2e-16 * size; }
 
 inline std::string call(const Rule& rule, const char* what) { return std::string(rule.part) + "." + what; }
@@ -53,7 +53,7 @@ inline Linear add_linear(Random& random, Depends depends, Numbers& in) {
       in.push_back(random.uniform(0.3, 1.5) * (random.integer(0, 1) ? 1 : -1) / scale);
       s.m(i, j) = in.back();
     }
-  for (const int column : {n + 1, n})  // b multiplies the 1, c multiplies t
+  for (const int column : {n + 1, n})  // b in column n + 1 multiplies the 1, c in column n multiplies t
     for (int i = 0; i < n; ++i) {
       in.push_back(depends == Depends::on_state ? 0 : random.uniform(0.5, 1.5));
       s.m(i, column) = in.back();

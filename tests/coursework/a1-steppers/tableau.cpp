@@ -1,5 +1,5 @@
-// Recovers a stepper's coefficients from its calls of f and its result: the time and state of each slope in terms of
-// the earlier slopes, and the weights of the final sum.
+// Recovers a stepper's coefficients from its calls of f and its result: for each call, its time and the weights of the
+// earlier slopes in its state; for the result, the weights of all slopes.
 #include <cmath>
 
 #include "tests/coursework/a1-steppers/systems.h"
@@ -23,14 +23,14 @@ Tableau right_tableau(const std::string& part) {
   return {{0, 1. / 2, 1. / 2, 1}, {{}, {1. / 2}, {0, 1. / 2}, {0, 0, 1}}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}};
 }
 
-/// Recorded data of several steps, concatenated in each vector.
+/// Data recorded in several steps. Each vector holds the numbers of all steps, one step after the other.
 struct Steps {
   std::size_t calls = 0;
   Numbers start, result, t, h;
   std::vector<Numbers> times, states, slopes;  // one per call
 };
 
-/// Returns false if the code did not answer, or if the number of calls of f differs between steps.
+/// Returns false if the student's code did not answer, or if the number of calls of f differs between steps.
 bool taken(const std::string& part, const Ask& student, Steps& steps) {
   constexpr int n = 5, count = 3;
   Random random(20);
@@ -68,9 +68,9 @@ bool taken(const std::string& part, const Ask& student, Steps& steps) {
   return true;
 }
 
-/// Returns the weights of x and of the first `slopes` slopes in `sum`; empty if `sum` is no such combination. For
-/// identical slopes only the sum of their weights can be determined. It is divided as in the right answer if it equals
-/// the right sum.
+/// Returns the weights of x and of the first `slopes` slopes in `sum`; empty if `sum` is no linear combination of them.
+/// If several slopes are identical, only the sum of their weights can be determined. If this sum is right, the function
+/// returns the right weights; otherwise it attributes the whole sum to the first of these slopes.
 Numbers as_sum(const Steps& steps, std::size_t slopes, const Numbers& sum, const Numbers& right) {
   std::vector<Numbers> columns{steps.start};
   std::vector<std::size_t> used;
@@ -133,7 +133,7 @@ Looked tableau_text(const Texts& common, const std::string& part, const Ask& stu
   Numbers expected{1};
   expected.insert(expected.end(), right.b.begin(), right.b.end());
   const Numbers found = as_sum(steps, steps.calls, steps.result, expected);
-  // after a wrong state, the weights of the result may differ as well: then report only the states
+  // these weights belong to the slopes that f returned: a wrong state does not change them
   if (found.empty())
     add(common.fill("rule.no_result", sum_text(terms(steps.calls), expected, 1e-8)));
   else if (!same(found, expected))

@@ -42,7 +42,7 @@ std::vector<Case> circle(Random& random) {
       const std::complex<double> z = begin * std::polar(std::pow(std::abs(factor), k), k * std::arg(factor));
       c.expected.insert(c.expected.end(), {z.real(), z.imag(), std::abs(factor)});
     }
-    // stages reach exp(angle) times the state; the state is largest at one of the two ends of the run
+    // within a step, numbers reach exp(angle) times the state, which is largest at the start or at the end of the run
     const double size = std::abs(begin) * std::max(1., std::pow(std::abs(factor), steps)) * std::exp(angle);
     c.tolerance = round_off(2, steps, size);
     c.plot_x = 0, c.plot_y = 1;
@@ -123,7 +123,8 @@ std::vector<Case> zero_and_back(Random& random) {
           linear_case(rule(), random, Depends::on_state_and_time, 2, 4, -random.uniform(0.2, 0.5))};
 }
 
-/// x' = r (1 + cos(w t + p) / 2) x (1 - x): for u = x / (1 - x), ln u grows by r (t + sin(w t + p) / (2 w)).
+/// x at the time `to`, from x' = r (1 + cos(w t + p) / 2) x (1 - x): with u = x / (1 - x), the difference
+/// ln u - r (t + sin(w t + p) / (2 w)) is constant.
 double seasonal_growth(double x, double r, double w, double p, double from, double to) {
   const double grown = r * (to - from + (std::sin(w * to + p) - std::sin(w * from + p)) / (2 * w));
   return 1 / (1 + (1 / x - 1) * std::exp(-grown));

@@ -1,4 +1,4 @@
-"""Calls of forces, derivatives and the step by check.py. The numbers are in the same order as in C++."""
+"""The calls that check.py makes of forces, derivatives and the step. The numbers are in the same order as in C++."""
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,7 @@
-// Calls of chain_derivative. All begin with n, g (3), drag, mass (n), stiffness (n - 1), rest (n - 1); a state is 6 n
+// Calls of chain_derivative. All begin with n, g (3), drag, mass (n), stiffness (n - 1), rest (n - 1). A state has 6 n
 // numbers.
 //   chain         state             a row per particle: rate of position (3), rate of velocity (3)
-//   chain.twice   state A, state B  rows: the derivative at A, at B, and at A once more; then A afterwards
+//   chain.twice   state A, state B  rows: the derivative at A, at B, and again at A; then the argument A afterwards
 #include "calls_numbers.h"
 
 namespace coursework {

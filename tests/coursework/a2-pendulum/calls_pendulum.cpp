@@ -1,6 +1,6 @@
 // Calls of pendulum_derivative. All begin with g (3), drag, mass, stiffness, rest; a state is 12 numbers.
 //   pendulum         state             a row per particle: rate of position (3), rate of velocity (3)
-//   pendulum.twice   state A, state B  rows: the derivative at A, at B, and at A once more; then A afterwards
+//   pendulum.twice   state A, state B  rows: the derivative at A, at B, and again at A; then the argument A afterwards
 //   pendulum.swing   steps, h, state   a row per step of RK4: position (3) and velocity (3) of particle 1
 #include "calls_numbers.h"
 

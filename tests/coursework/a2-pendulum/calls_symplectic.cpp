@@ -2,7 +2,7 @@
 // has the acceleration g - c v_i - sum_j K_ij x_j.
 //   symplectic          a row per step: position (3) and velocity (3) of each particle
 //   symplectic.points   one step; a row per call of f: the state at which it was called
-//   symplectic.kept     one step; the argument afterwards
+//   symplectic.kept     one step; the argument after the step
 #include "calls_numbers.h"
 
 namespace coursework {

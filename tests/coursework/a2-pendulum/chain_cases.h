@@ -43,7 +43,7 @@ inline std::vector<Case> length_cases(Random& random) {
   return cases;
 }
 
-/// Sum of m a over the free particles, and sum of its moments about the fixed particle.
+/// Sum of m a over the free particles, and sum of the moments of m a about the fixed particle.
 inline Found total_force_and_moment(const Case& c, const Numbers& raw) {
   const std::size_t n = static_cast<std::size_t>(c.in[0]), state = 5 + n + 2 * (n - 1);
   if (raw.size() != 6 * n) return raw;
@@ -110,8 +110,8 @@ inline std::vector<Case> hanging_cases(Random& random) {
   return {at_rest, released};
 }
 
-/// n equal free masses on equal springs in a line, one end fixed, one free: mode j moves particle i by
-/// sin((2 j - 1) i pi / (2 n + 1)), and its acceleration is -omega_j^2 times that, with
+/// n equal free masses on equal springs in a line, one end fixed, one free. In mode j, particle i is displaced by
+/// sin((2 j - 1) i pi / (2 n + 1)), and its acceleration is -omega_j^2 times this displacement, with
 /// omega_j = 2 sqrt(k / m) sin((2 j - 1) pi / (4 n + 2)).
 inline std::vector<Case> mode_cases(Random& random) {
   const std::size_t n = static_cast<std::size_t>(random.integer(4, 6));

@@ -107,8 +107,8 @@ inline void put(const std::vector<Motion>& state, Numbers& out) {
   for (const Motion& one : state) put(one.x, out), put(one.v, out);
 }
 
-/// Round-off bound: a force law takes fewer than 60 sums, products and roots, each with an error of half an epsilon
-/// times `size`, a bound on the numbers.
+/// Round-off bound: a force law takes fewer than 60 sums, products and roots. Each has an error of half an epsilon
+/// times `size`, where `size` bounds the numbers.
 inline double round_off(double size) { return 60 * 1.2e-16 * size; }
 
 }  // namespace coursework::a2

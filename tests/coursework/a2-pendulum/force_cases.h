@@ -5,7 +5,7 @@
 
 namespace coursework::a2 {
 
-/// Particles of seeded masses under seeded gravities, none of them along an axis.
+/// Particles with seeded masses and seeded vectors g, none of which is along an axis.
 inline std::vector<Case> gravity_cases(Random& random) {
   Case c{"gravity", {5}, {}, 3, round_off(100), "particle", "force"};
   for (int i = 0; i < 5; ++i) {
@@ -50,7 +50,7 @@ inline std::vector<Case> straight_spring_cases(Random& random) {
   return cases;
 }
 
-/// Springs in any direction: minus the gradient of the energy at both ends.
+/// Springs in any direction. The expected forces on both ends are minus the gradient of the energy.
 inline std::vector<Case> spring_cases(Random& random) {
   Case c{"spring", {6}, {}, 3, round_off(1000), "end", "force"};
   for (int i = 0; i < 6; ++i) {
@@ -65,8 +65,8 @@ inline std::vector<Case> spring_cases(Random& random) {
   return {c};
 }
 
-/// Special springs: at rest length; with rest length zero, which pull with stiffness times distance; with coincident
-/// ends; and with ends a fraction of a millimetre apart, near the origin.
+/// Special springs: unstretched; with rest length zero (the force is stiffness times distance); with coincident ends;
+/// and with ends that are a fraction of a millimetre apart, near the origin.
 inline std::vector<Case> special_spring_cases(Random& random) {
   Case at_rest{"spring", {2}, Numbers(12), 3, 0, "end", "force"};
   Case no_rest{"spring", {2}, {}, 3, round_off(1000), "end", "force"};

@@ -60,9 +60,9 @@ inline Found path_and_energy(const Case& c, const Numbers& raw) {
   return reduced;
 }
 
-/// A swing in the x-y plane without drag, advanced by RK4 and compared with RK4 on the energy's gradient. The expected
-/// energy is the initial one. RK4 dissipates (omega h)^6 / 72 of the spring energy per step; because the spring also
-/// swings, the tolerance is ten times this.
+/// A swing in the x-y plane without drag, advanced by RK4. The expected path is that of RK4 with the energy's gradient;
+/// the expected energy is the initial energy. RK4 dissipates (omega h)^6 / 72 of the spring energy in each step. The
+/// tolerance is ten times the sum over all steps, because the spring's length oscillates, too.
 inline std::vector<Case> swing_cases(Random& random) {
   const std::size_t steps = 120;
   Row row;

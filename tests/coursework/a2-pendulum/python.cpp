@@ -1,4 +1,4 @@
-// Forces, systems and the stepper if the student's part is in Python. The macro PART is the index of this part.
+// Forces, systems and the stepper for a student who writes a part in Python. The macro PART is the index of this part.
 #include "../python/remote.h"
 #include "pendulum.h"
 

@@ -49,7 +49,7 @@ inline std::vector<Motion> random_state(Random& random, const Row& row) {
   return state;
 }
 
-/// Case of one derivative; `head` holds the numbers of the row.
+/// Case of one derivative. `head` holds the numbers before the state: gravity, drag, masses and springs.
 inline Case derivative_case(const char* call, Numbers head, const Row& row, const std::vector<Motion>& state) {
   Case c{call, head, {}, 6, round_off(largest_acceleration), "particle", "rate"};
   put(state, c.in);
@@ -63,7 +63,7 @@ inline Case chain_case(const Row& row, const std::vector<Motion>& state) {
   return derivative_case("chain", chain_numbers(row), row, state);
 }
 
-/// Case of a derivative at A, at B, at A once more, and A itself.
+/// Case that asks for the derivative at A, at B and again at A, and for the argument A after the calls.
 inline Case twice_case(const char* call, Numbers head, const Row& row, Random& random) {
   const int numbers = 6 * static_cast<int>(row.size());
   Case c{call, head, {}, numbers, round_off(largest_acceleration), "try", "rates"};

@@ -23,8 +23,8 @@ Numbers pairs(const std::vector<Spring>& springs) {
   return out;
 }
 
-/// For each distance between the ends of a spring, in rows and in columns: these two numbers, then the smallest and
-/// largest rest length and stiffness.
+/// Groups the springs by the distance between their ends, counted in rows and in columns. For each group: these two
+/// distances, the smallest and the largest rest length, the smallest and the largest stiffness.
 Numbers steps(const Grid& grid, const std::vector<Spring>& springs) {
   std::map<std::array<int, 2>, std::array<double, 4>> found;
   for (const Spring& s : springs) {

@@ -91,7 +91,7 @@ Vec3 Breeze::at(double t) const {
 Breeze random_breeze(Random& random) {
   const Vec3 direction = random_direction(random);
   const double speed = random.uniform(2, 4), gust = random.uniform(0.3, 0.6), frequency = random.uniform(0.4, 0.9);
-  // below 45 degrees, at which sine and cosine are equal
+  // below 45 degrees, because sine and cosine are equal there
   const double offset = random.uniform(0.1, 0.6);
   return {true, direction, speed, gust, frequency, offset, random.uniform(1, 1.4), random.uniform(1, 2)};
 }

@@ -62,7 +62,7 @@ Scene scene_of(Random& random, const Sheet& sheet) {
   scene.v.resize(3, count);
   for (int i = 0; i < count; ++i) {
     scene.v.col(i) = random_vector(random, 1);
-    // round random numbers could be equal
+    // random numbers of few digits could be equal
     scene.mass.push_back(random.rounds() ? 0.02 + 0.01 * i : random.uniform(0.02, 0.04));
   }
   if (scene.sheet.mesh.rows > 1) scene.faces = grid_triangles(grid_of(scene.sheet.mesh, 1, 0, 0));
@@ -95,7 +95,7 @@ Points rates_of(const Scene& scene, const Points& x, const Points& v, double t) 
 }
 
 Case rates_case(const char* call, const Scene& scene) {
-  // accelerations are at most 3000 m/s^2 and sums of some 20 terms: their round-off is below 1e-11
+  // each acceleration is at most 3000 m/s^2 and a sum of some 20 terms, so that its round-off is below 1e-11
   return {.call = call, .in = scene.numbers(), .columns = 6, .tolerance = 1e-8, .row = "particle", .column = "rates"};
 }
 
@@ -163,7 +163,7 @@ Case again(Random& random, const Scene& scene) {
 Cases rates_again(Random& random) { return {again(random, random_scene(random))}; }
 Cases small_rates_again(Random& random) {
   Cases cases = small_scenes(random, [&](const Scene& scene) { return again(random, scene); });
-  cases.pop_back();  // two states of a cell are too many numbers for a reader
+  cases.pop_back();  // leaves out the cell of four particles: two states of it are too many numbers to read
   return cases;
 }
 
@@ -196,7 +196,8 @@ Cases hanging_strip(Random& random) {
     rest(1, i) -= fallen;
   }
   c.expected = numbers_of(rest);
-  // drag damps every mode at least as fast as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left. Round-off is 1e-13
+  // drag damps every mode at least as fast as exp(-4 t), so that 1e-14 of the initial 0.5 m is left after 8 s. The
+  // round-off is 1e-13
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;
@@ -221,8 +222,8 @@ Cases swinging_cloth(Random& random) {
     state.t = (n + 1) * h;
     put(c.expected, Vec3(state.x.col(watched)));
   }
-  // mysim uses the same rule and order of stages: round-off was at most 1e-14 m on 20 seeds, and a cloth with this drag
-  // cannot amplify it by 1e5 in 0.3 s
+  // mysim uses the same rule with the same order of stages. On 20 seeds the round-off was at most 1e-14 m, and a cloth
+  // with this drag cannot amplify round-off by 1e5 in 0.3 s
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;

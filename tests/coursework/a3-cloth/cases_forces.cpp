@@ -103,14 +103,14 @@ Case laws_of(Random& random, const Sheet& sheet) {
   put(c.in, random_vector(random, 2));
   const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(random.uniform(0.5, 2.5), random_direction(random)).toRotationMatrix();
-  put(c.in, Points(rotation.transpose()));  // put() goes column by column and so writes the rows of the rotation
+  put(c.in, Points(rotation.transpose()));  // put() writes columns, which are the rows of the rotation
   Points u(3, sheet.mesh.size());
   for (int i = 0; i < u.cols(); ++i) u.col(i) = random_vector(random, 1);
   put(c.in, u);
   c.expected.assign(8, 0.0);
   c.expected.push_back(power(sheet.springs, sheet.x, u));
-  // differences of some 5 J over 1e-3 m have a round-off of 1e-12 N. The truncation error is about (step / length)^4 =
-  // (0.001 / 0.05)^4 = 2e-7 of some 10 N (measured on 20 seeds: 6e-7 N)
+  // energies of some 5 J, whose difference is divided by 1e-3 m, give a round-off of 1e-12 N. The truncation error,
+  // relative to some 10 N, is about (step / length)^4 = (0.001 / 0.05)^4 = 2e-7 (measured on 20 seeds: 6e-7 N)
   c.tolerance = 1e-5;
   return c;
 }

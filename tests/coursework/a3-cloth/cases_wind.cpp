@@ -80,8 +80,8 @@ Cases one_triangle(Random& random) {
 }
 
 Cases small_triangle(Random&) {
-  // a triangle of 6 m^2: the air meets it from the front, from behind and at an angle; it moves with half the speed of
-  // the wind; only one corner moves
+  // a triangle of 6 m^2 in five cases: the air meets it from the front, from behind, and at an angle; the triangle
+  // moves with half the speed of the wind; only one corner moves
   Points x(3, 3);
   x << 0, 0, 4, 0, 0, 0, 0, 3, 0;
   Cases cases;

@@ -3,8 +3,8 @@
 
 namespace coursework {
 
-/// corrected_position (sphere, count, `before` and `proposed` of each particle), on_plane (the same with a plane): the
-/// corrected position of each particle.
+/// corrected_position (sphere, count, `before` and `proposed` of each particle): each corrected position.
+/// on_plane: the same, with a plane instead of the sphere.
 bool answer_position(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "corrected_position" && call != "on_plane") return false;
   Reader reader(in);

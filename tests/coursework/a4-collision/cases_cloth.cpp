@@ -54,7 +54,7 @@ Scene few(Random& random, int count, const std::vector<int>& pins) {
   return scene;
 }
 
-/// A square cloth of n x n particles, centred at `middle`, with sides along u and v (length 1).
+/// A square cloth of n x n particles, centred at `middle`, with sides along the unit vectors u and v.
 Scene square(Random& random, int n, double side, const Vec3& middle, const Vec3& u, const Vec3& v,
              const std::vector<int>& pins) {
   Scene scene;
@@ -87,7 +87,7 @@ Numbers Scene::cloth() const {
   return in;
 }
 
-/// Runs mysim. watched < 0: position and velocity of every particle at the end; otherwise the path of this particle.
+/// Runs mysim. Expects the path of the particle `watched` or, if watched < 0, the state of every particle at the end.
 Case Scene::run(const char* call, double h, int steps, int watched) const {
   Case c{.call = call, .in = cloth(), .columns = watched < 0 ? 6 : 3};
   c.in.push_back(static_cast<double>(spheres.size()));
@@ -174,7 +174,7 @@ Cases small_cloth_step(Random& random) {
 
 Case pins_and_spheres_of(Random& random, int n) {
   // a cloth that falls on two overlapping spheres. One pin is inside a sphere and stays there. The middle particle is
-  // 0.07 m inside both spheres, and still 0.02 m inside the second after the first has pushed it out
+  // 0.07 m inside both spheres, and still 0.02 m inside the second sphere after the first has pushed it out
   const Vec3 middle = random_vector(random, 1);
   Scene scene = square(random, n, 0.8, middle, Vec3::UnitX(), Vec3::UnitZ(), {0, 2 * n + 1});
   shake(random, scene, 0.01, 0.5);
@@ -208,7 +208,7 @@ Cases patch_on_a_slope(Random& random) {
       scene.start.x.col(i) = sphere.centre + r * (scene.start.x.col(i) - sphere.centre).normalized();
     scene.spheres = {sphere};
     Case c = scene.run("cloth_path", 0.005, 100, 4);
-    c.tolerance = 1e-9;  // round-off of 1e-15 m in each step, which friction and drag keep from growing
+    c.tolerance = 1e-9;  // each step has a round-off of 1e-15 m; friction and drag keep it from growing
     cases.push_back(c);
   }
   return cases;

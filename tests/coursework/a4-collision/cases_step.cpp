@@ -105,9 +105,9 @@ Cases leaving_angle(Random& random) {
   Start s = on_the_slope(random, start, 0);
   s.h = 2e-4 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
   s.steps = 30000;
-  // symplectic Euler falls too far by half a step's gravity, so that the particle leaves the surface sqrt(h v cos / (3
-  // R sin)) = 0.4 degrees later, and 0.6 % faster (as measured). With friction or a loss of speed it would leave at
-  // least 5 degrees away
+  // each step of symplectic Euler falls too far by h^2 g / 2. The particle therefore leaves the surface
+  // sqrt(h v cos / (3 R sin)) = 0.4 degrees too late, and 0.6 % too fast (measured). With friction or a loss of speed,
+  // it would leave the surface at least 5 degrees away from the right place
   Case c = step_case("leaving", s, "whole", "leaving", 2, 1.0);
   const double cosine = 2.0 / 3 * std::cos(start);
   c.expected = {std::acos(cosine) * 180 / std::numbers::pi, 100 * std::sqrt(cosine)};
@@ -119,7 +119,7 @@ Cases rebound_height(Random& random) {
   Start s{random_sphere(random, 0.5, e), random_gravity(random), 0, 6000, {}, {Vec3::Zero()}};
   s.x = {s.sphere.centre - (s.sphere.contact_radius() + drop) * s.g.normalized()};
   s.h = 5e-4 * std::sqrt(2 * drop / s.g.norm());
-  // the moment of impact shifts by at most h, which changes the speed by 2 h / fall time = 0.1 %, the height by 0.2 %
+  // the moment of impact shifts by at most h. This changes the speed by 2 h / fall time = 0.1 %, the height by 0.2 %
   Case c = step_case("rebound", s, "whole", "rebound", 1, 0.5);
   c.expected = {100 * e * e};
   return {c};

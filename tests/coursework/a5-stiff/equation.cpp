@@ -1,5 +1,5 @@
-// Recovers the equation that a student's implicit step solves from the student's answers: for motion along a line each
-// term is a number, and mass times change of velocity is a linear combination of the terms.
+// Recovers, from the answers of a student's implicit step, the equation that this step solves. For motion along a line,
+// each term is a number, and mass times change of velocity is a linear combination of the terms.
 #include <cmath>
 
 #include "tests/coursework/grader/assignment.h"
@@ -9,7 +9,7 @@ namespace coursework::a5 {
 namespace {
 
 constexpr double near_one = 1e-6;  // coefficients are simple numbers, known to 1e-9 from answers of fifteen digits
-constexpr int probes = 16;         // two more than twice the number of terms
+constexpr int probes = 16;         // at least twice the number of terms
 
 struct Pair {
   double h, drag, gravity, k, rest, mass[2], x[2], v[2];
@@ -40,7 +40,7 @@ struct Read {
   Numbers right, found;
 };
 
-/// Coefficients of the terms whose sum is m dv of particle `i`. `found` is empty if m dv is no such sum.
+/// Writes m dv of particle `i` as a linear combination of terms. `found` is empty if there is no such combination.
 Read read_off(const std::vector<Pair>& pairs, const std::vector<Answer>& answers, int i, bool beside_fixed) {
   Read read{{{"h m g"}, {"h c v"}, {"h c dv"}, {"h k e"}, {"h^2 k v"}, {"h^2 k dv"}}, {1, -1, -1, -1, -1, -1}, {}};
   if (!beside_fixed) {

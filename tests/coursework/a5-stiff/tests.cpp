@@ -79,9 +79,9 @@ std::vector<Case> small_springs(Random&) {
 
 using Rows = std::vector<Numbers>;
 
-/// A matrix whose diagonal entries are even numbers from 20 to 40, and whose other entries are from `low` to `high`, at
-/// most 3 in magnitude. If n <= 6, each column's diagonal entry exceeds the sum of the other magnitudes by at least 5,
-/// so that the norm of the inverse is at most 0.2, the condition number below 12, and the error below 1e-13.
+/// A matrix whose diagonal entries are even numbers from 20 to 40. Its other entries are from `low` to `high`, at most
+/// 3 in magnitude. If n <= 6, each diagonal entry exceeds the sum of the other magnitudes in its column by at least 5.
+/// Therefore the norm of the inverse is at most 0.2, the condition number below 12, and the error below 1e-13.
 Rows strong_diagonal(Random& random, int n, int low, int high) {
   Rows a(n, Numbers(n));
   for (int i = 0; i < n; ++i)
@@ -230,9 +230,9 @@ std::vector<Case> accurate_steps(Random& random) {
   for (const auto& [rule, order, constant] : table) {
     Case c = predicted(rule);
     while (c.expected.size() < 3) {
-      // h omega is from 0.1 to 0.5, far below every limit
+      // h omega is from 0.1 to 0.5, far below every limit of stability
       const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega;
-      // round numbers get half a step more, so that rounding cannot decide the number of steps
+      // if numbers have few digits, half a step more, so that rounding cannot decide the number of steps
       const double duration = (random.uniform(8, 40) + (random.rounds() ? 0.5 : 0)) * wanted;
       add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     }
@@ -241,7 +241,7 @@ std::vector<Case> accurate_steps(Random& random) {
                  duration = random.uniform(0.3, 0.8) * wanted;
     add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     if (rule == implicit_euler) {
-      // an integer number of steps: omega and h are powers of two, so that every formula gives it exactly
+      // omega and h are powers of two, so that every formula gives exactly the same integer number of steps
       const double h = 1.0 / 32, whole = random.integer(5, 30) * h;
       c.in.insert(c.in.end(), {4, whole, constant * 4 * whole * 4 * h}), c.expected.push_back(h);
     }
@@ -258,7 +258,7 @@ std::vector<Case> stable_steps(Random& random) {
     Case c = predicted(rule);
     while (c.expected.size() < 2) {
       const double omega = random.uniform(2, 30), h = 0.9 * limit_of(omega, 0);
-      // the tolerance is so large that accuracy would allow more than ten times the limit
+      // the tolerance is so large that accuracy alone would allow a step of more than ten times the limit
       add(c, omega, (random.uniform(4, 12) + (random.rounds() ? 0.5 : 0)) * h, 1e6, h);
     }
     cases.push_back(c);
@@ -289,7 +289,7 @@ std::vector<Case> measured_steps(Random& random) {
     }
     // the error of a run is exactly c h^p
     c.expected = {std::pow(tolerance / largest, 1. / order)};
-    c.tolerance = 1e-10 * c.expected[0];  // the two runs are of size 1, and their difference is above 1e-3
+    c.tolerance = 1e-10 * c.expected[0];  // the two final states are of size 1 and differ by more than 1e-3
     cases.push_back(c);
   }
   return cases;

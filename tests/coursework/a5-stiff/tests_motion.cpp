@@ -1,5 +1,5 @@
-// Expected answers are closed forms for motion on a line and free fall; otherwise mysim's forces and tangents with a
-// dense solve by Eigen or, for linear forces, mysim's own implicit Euler.
+// Expected answers are closed forms for motion on a line and for free fall, and mysim's own implicit Euler for linear
+// forces. Otherwise Eigen solves a dense system of mysim's forces and tangents.
 #include "tests/coursework/a5-stiff/tests_motion.h"
 
 #include <Eigen/Dense>
@@ -38,9 +38,9 @@ void add_row(const Scene& s, int i, Numbers& out) {
   for (const Points* p : {&s.x, &s.v}) put(out, Vec3(p->col(i)));
 }
 
-/// Relative tolerance. A step solves a well-conditioned system (each case says why), which costs a few of sixteen
-/// digits, and damping keeps errors of different steps from adding up: 1e-9 of the largest number allows for any order
-/// of summation.
+/// Tolerance, relative to the largest number. A step solves a well-conditioned system (each case says why), so that it
+/// loses only a few of sixteen digits, and damping keeps the errors of different steps from adding up. 1e-9 therefore
+/// allows for any order of summation.
 constexpr double accuracy = 1e-9;
 
 Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) {
@@ -86,7 +86,7 @@ Mysim as_mysim(const Scene& s) {
   return m;
 }
 
-/// mysim's complete implicit Euler step with Newton's method: identical for forces that are linear in the positions.
+/// mysim's implicit Euler step, by Newton's method. It equals linearised_step() if forces are linear in the positions.
 void whole_step(Scene& s) {
   Mysim m = as_mysim(s);
   crosscheck::System f(m.model);
@@ -131,8 +131,8 @@ void linearised_step(Scene& s) {
   }
 }
 
-/// Motion along the line through both ends, on which the spring is linear: with e = L - r, the step is v' = (v - h w^2
-/// e) / (1 + (h w)^2), e' = e + h v'.
+/// Motion along the line through both ends, where the spring is linear. With the stretch e = L - r, the step is
+/// v' = (v - h w^2 e) / (1 + (h w)^2), e' = e + h v'.
 void oscillator_step(Scene& s) {
   const crosscheck::Spring& spring = s.springs[0];
   const int free = s.fixed[0] ? 1 : 0;

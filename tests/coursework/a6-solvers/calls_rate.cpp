@@ -1,7 +1,7 @@
 // Calls of spectral_radius, factor and slower_from.
 //   rate.radius       n, B (n x n), error (n)         the spectral radius
 //   rate.factor       rho, then mu of each error      the factor of each error
-//   rate.slower       lowest, highest eigenvalue      the rho, for each pair of eigenvalues
+//   rate.slower       lowest, highest eigenvalue      the result of slower_from for each pair
 #include "calls_read.h"
 
 namespace coursework {

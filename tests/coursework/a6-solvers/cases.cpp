@@ -1,5 +1,5 @@
-// Forces and tangents are mysim's. Weights, and errors that remain after passes, are Chebyshev polynomials in closed
-// form. The exact step is mysim's implicit Euler. The rest state of averaging is computed from a power of a matrix.
+// Forces and tangents are mysim's. The weights, and the errors that remain after passes, are computed from closed forms
+// of Chebyshev polynomials. The exact step is mysim's implicit Euler. Averaging's rest state uses a power of a matrix.
 #include "tests/coursework/a6-solvers/cases.h"
 
 #include <algorithm>
@@ -59,13 +59,13 @@ Points gradient(const Scene& s, const Points& ahead, const Points& x) {
 
 constexpr double velocity_kept = 0.99;
 
-/// Value of a deviation from rest after a step, divided by the value that the velocity alone would lead to.
+/// Deviation from rest after a step, divided by the deviation to which velocity alone would lead.
 double left_after_step(double mu, double inertia, double rho, int passes) {
   return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
 }
 
-/// Mean of the positions that the springs propose. A spring of 1/2 N/m has a force of half its stretch, which is the
-/// displacement that it proposes.
+/// Weighted mean of each particle's position and the positions that its springs propose. A spring proposes to move each
+/// end by half its stretch, which is the force of a spring of 1/2 N/m.
 Points averaged(const Scene& s, const Points& x) {
   Eigen::ArrayXd count = Eigen::ArrayXd::Constant(x.cols(), 0.2);
   for (const auto& spring : s.springs) count[spring.a] += 1, count[spring.b] += 1;
@@ -343,8 +343,8 @@ std::vector<Case> averaged_steps(Random& random) {
   return {of_steps("averaging.state", tangle(random, 2, 0), 1, 1, 0),
           of_steps("averaging.state", tangle(random, 3, -1), 3, 2, 0)};
 }
-/// On a line a pass is linear: it multiplies the displacements y by a matrix B. At rest after n passes, y = B^n (y +
-/// h^2 g).
+/// On a line a pass is linear: it multiplies the displacements y by a matrix B. At rest, a step of n passes does not
+/// change y: y = B^n (y + h^2 g).
 std::vector<Case> rest_by_averaging(Random& random) {
   const HangingChain chain = hanging(random);
   const int n = chain.n;

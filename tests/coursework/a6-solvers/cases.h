@@ -1,4 +1,4 @@
-// Cases of the passes: nets, and the expected answers from mysim's forces, eigenvalues and Chebyshev's closed forms.
+// Nets, and cases of the passes. The expected answers are computed from mysim's forces, eigenvalues and closed forms.
 #pragma once
 
 #include <Eigen/Dense>
@@ -17,8 +17,8 @@ struct Scene {
   crosscheck::Points x, v;
 
   double slope() const { return mass / (h * h) + 4 * stiffness; }  // N/m
-  /// Matrix of a plain pass for small errors at this state: I - (m/h^2 + K) / (m/h^2 + 4 k), with K = -dF/dx of the
-  /// springs for the coordinates of the particles that are not held.
+  /// Matrix of a plain pass for small errors at this state: I - (m/h^2 + K) / (m/h^2 + 4 k). K is the matrix -dF/dx of
+  /// the springs, without the rows and columns of held particles.
   Eigen::MatrixXd iteration() const;
 };
 
@@ -30,8 +30,8 @@ void step(Scene& scene, int passes, double rho);
 
 /// The largest |z| of the roots of z^2 - sum z + product = 0.
 double growth(double sum, double product);
-/// step_growth: long-run growth of a deviation from rest in each step of the given number of passes. grows: whether any
-/// of several deviations grows. diverges_from: the smallest rho at which one of them grows, or 1.
+/// step_growth: factor by which each step of the given number of passes multiplies a deviation from rest, in the long
+/// run. grows: true if one of several deviations grows. diverges_from: the smallest rho at which one grows, 1 if none.
 double step_growth(double mu, double inertia, double rho, int passes);
 bool grows(const Eigen::VectorXd& mu, double inertia, double rho, int passes);
 double diverges_from(const Eigen::VectorXd& mu, double inertia, int passes);

@@ -48,7 +48,7 @@ Case radius_of(Random& random, const MatrixXd& b, double radius) {
 std::vector<Case> radii(Random& random) {
   MatrixXd b;
   VectorXd sizes(6);
-  do {  // repeats until a hundred passes or so separate the largest eigenvalue from the others
+  do {  // repeats until about a hundred passes suffice to find the largest eigenvalue
     b = linearised(random, 2, 0.9).iteration();
     sizes = Eigen::SelfAdjointEigenSolver<MatrixXd>(b, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
     std::sort(sizes.begin(), sizes.end());
@@ -71,7 +71,7 @@ std::vector<Case> factors(Random& random) {
   std::vector<Case> cases;
   for (const double rho : {0., random.uniform(0.5, 0.7), random.uniform(0.8, 0.98)}) {
     Case c{"rate.factor", {rho}, {}, 1, 1e-10, "error", "factor"};
-    // |mu| is below rho, above rho, or above 1; near rho two solutions would coincide, which halves the digits
+    // |mu| is below rho, above rho, or above 1, but not near rho, where two roots coincide and half the digits are lost
     for (const double mu : {0.5 * rho, -0.7 * rho, rho + 0.6 * (1 - rho), -rho - 0.3 * (1 - rho), 1.03}) {
       c.in.push_back(mu);
       c.expected.push_back(growth(mu, rho));
@@ -145,7 +145,7 @@ std::vector<Case> growths(Random& random) {
   return {c};
 }
 /// The rho at which deviations of a random net begin to grow. Nets are redrawn until deviations also grow for the next
-/// higher values of rho, so that a search with the hand-out's steps cannot miss this range; with 16 passes, coarser
+/// higher values of rho, so that a search in the hand-out's steps of rho cannot miss this range. With 16 passes, larger
 /// steps miss it. A single pass does not depend on rho: deviations grow for every rho, or for none.
 std::vector<Case> divergences(Random& random) {
   std::vector<Case> cases;

@@ -4,7 +4,7 @@
 //   iterations.many     as iterations.frame, then the prediction of a belief, which is shown but not used
 //                       the depth of the lowest particle after a frame with 1, 2, 5, 20 and all iterations
 //   iterations.choose   budget, number of plans, then steps, iterations, error of each plan whose cost is the budget
-//                       steps, iterations of the chosen plan. The error of plans with another cost is 0
+//                       steps, iterations of the chosen plan. Plans that cost more or less have error 0
 #include "beliefs.h"
 #include "calls.h"
 #include "numbers.h"

@@ -15,7 +15,7 @@ struct Hanging {
   double mass, stiffness, rest, gravity;
   VectorXd x, v;
 
-  /// The matrix G of the stretches G x - rest.
+  /// The matrix G with which G x - rest are the stretches.
   MatrixXd gradient() const {
     MatrixXd g = MatrixXd::Identity(n, n);
     g.diagonal(-1).setConstant(-1);

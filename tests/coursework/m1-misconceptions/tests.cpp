@@ -47,7 +47,7 @@ std::vector<Case> one_step(Random& random) {
   return cases;
 }
 
-/// The energy relative to the start that a misconception predicts: the drift uses the mean of both velocities.
+/// The energy that a misconception predicts, relative to the start: the drift uses the mean of both velocities.
 double with_mean_velocity(const Oscillator& o, int steps) {
   Oscillator now = o;
   for (int i = 0; i < steps; ++i) {
@@ -72,8 +72,8 @@ std::vector<Case> energy_of_both(Random& random) {
     }
     const double of_old = std::pow(growth, 1000);
     c.in.insert(c.in.end(), {of_old, with_mean_velocity(o, 1000)});
-    // allows for the rounding of values up to the largest energy in a thousand steps of ten operations, and for theta,
-    // which is accurate to eps / a
+    // allows for ten roundings of values up to the largest energy in each of a thousand steps, and for the error of
+    // theta, which is eps / a
     c.tolerance = (1e4 + 1000 / o.angle()) * 1.2e-16 * of_old;
     c.plot_y = 1, c.row_size = 100 * o.h;
     cases.push_back(c);
@@ -113,7 +113,7 @@ std::vector<Case> next_position(Random& random) {
   return cases;
 }
 
-/// Orders of two errors: that of one step, and that at a time between 4 / omega and 5 / omega, where a cosine with a
+/// Orders of two errors: the error of one step, and the error at a time of 4 to 5 / omega, where a cosine with a
 /// small phase error is not close to zero. With a = h omega, the error after this time is C a^2 (1 + O(a / 4)), which
 /// changes the order by less than 0.05 for a below 0.12. The error of one step is C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
@@ -149,7 +149,7 @@ double verlet_error(double a, double steps) {
   return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
 }
 
-/// Cases whose expected answer is the actual error, from the closed form. It deviates from the
+/// Cases whose expected answer is the actual error, from the closed form. The actual error differs from the
 /// estimate, (given error) / times^2, by a term of the next order in a, at most 3 % for a below 0.06.
 std::vector<Case> smaller_steps(Random& random) {
   std::vector<Case> cases;

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-/// The numbers X of a system at one moment. Their number depends on the system: 1, 2, 8, a thousand.
+/// The numbers X of a system at one moment. How many there are depends on the system: 1, 2, 8, a thousand.
 using State = std::vector<double>;
 
-/// The right-hand side of X' = f(t, X): as many numbers as X has, each the rate at which that number changes.
+/// The right-hand side of X' = f(t, X): the rates of change of all numbers of X, in the same order.
 using Derivative = std::function<State(double t, const State& x)>;
 
 /// Explicit Euler: X(t + h) = X + h f(t, X). Calls f once. h may have either sign, and may be 0.

@@ -30,8 +30,8 @@ Vec3 gravity_force(double mass, const Vec3& g);
 /// Force of viscous drag (N) on a particle of velocity v: -drag v. `drag` is in N s/m.
 Vec3 drag_force(double drag, const Vec3& v);
 
-/// Force (N) of a spring on the particle at `a`; the spring's other end is at `b`. With d = a - b and L = |d| it is
-/// -stiffness (L - rest) d / L. If the ends coincide, the direction is undefined and the force is zero.
+/// Force (N) of a spring on the particle at `a`: -stiffness (L - rest) d / L. The spring's other end is at `b`, and
+/// d = a - b, L = |d|. If the ends coincide, the direction is undefined and the force is zero.
 Vec3 spring_force(const Vec3& a, const Vec3& b, double stiffness, double rest);
 
 struct Pendulum {
@@ -60,6 +60,6 @@ State chain_derivative(const Chain& chain, const State& state);
 /// The right-hand side of X' = f(X).
 using Derivative = std::function<State(const State& state)>;
 
-/// One step of symplectic Euler, for every particle: first v(t + h) = v + h a, with the acceleration a of f at the
-/// state given; then x(t + h) = x + h v(t + h), with the new velocity. Calls f once.
+/// One step of symplectic Euler, for every particle: first v(t + h) = v + h a, with the acceleration a that f
+/// returns for the given state; then x(t + h) = x + h v(t + h), with the new velocity. Calls f once.
 State symplectic_step(const Derivative& f, const State& state, double h);

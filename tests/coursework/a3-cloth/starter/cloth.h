@@ -31,7 +31,7 @@ struct Spring {
   double rest = 0;   // m, rest length
 };
 
-/// Springs of each family: each pair once, in any order, with stiffness k, and at its rest length in the flat grid.
+/// The springs of one family, each once, in any order. They have stiffness k and are at rest length in the flat grid.
 std::vector<Spring> structural(const Grid& grid, double k);  // from each particle to the next in its row and column
 std::vector<Spring> shear(const Grid& grid, double k);       // both diagonals of every cell
 std::vector<Spring> flexion(const Grid& grid, double k);     // from each to the next but one in its row and column
@@ -58,7 +58,7 @@ struct Triangle {
 
 struct Wind {
   bool on = false;
-  Vec3 direction;                              // unit vector in which the air moves
+  Vec3 direction;                              // unit vector, the direction in which the air moves
   double speed = 0;                            // m/s, on average
   double gust = 0, frequency = 0, offset = 0;  // relative amplitude, frequency (Hz), phase (rad) of the speed
   double density = 0;                          // of the air, kg/m^3

@@ -40,14 +40,14 @@ Vector solve(Matrix a, Vector b);
 /// implicit_euler.cpp: the state after one linearised implicit Euler step of length h. Calls the two functions above.
 State implicit_euler_step(const System& system, const State& state, double h);
 
-/// limits.cpp: the largest step (s) at which the solution by the rule does not grow on u'' = -omega^2 u - gamma u'.
+/// limits.cpp: the largest step (s) at which the rule's solution of u'' = -omega^2 u - gamma u' does not grow.
 /// HUGE_VAL if every step is stable, 0 if none is.
 double largest_stable_step(Rule rule, double omega, double gamma);
 
-/// choose.cpp: a step that divides the duration, keeps the error on u'' = -omega^2 u at its end below the tolerance,
-/// and is stable. 0 if the rule has no stable step.
+/// choose.cpp: a stable step that divides the duration and, for u'' = -omega^2 u, keeps the error at the end of the
+/// duration below the tolerance. 0 if the rule has no stable step.
 double predicted_step(Rule rule, double omega, double duration, double tolerance);
 
 /// choose.cpp: run(h) is the final state of a run with steps of h, by a rule of this order. Returns the step whose
-/// error equals the tolerance, as estimated from two runs, one with h and one with h/2.
+/// error equals the tolerance; the error is estimated from two runs, one with h and one with h/2.
 double measured_step(const std::function<Vector(double)>& run, int order, double h, double tolerance);

@@ -25,10 +25,11 @@ double kept(double omega, Swing now, double h);
 /// Position Verlet: the position h later, from the last two positions and the acceleration (m/s^2) at `now`.
 double verlet_next(double before, double now, double acceleration, double h);
 
-/// The order that a list of errors shows. Each error belongs to half the step of the previous error.
+/// The order of a rule, from a list of its errors: each error is measured with half the step of the previous one.
 double observed_order(const std::vector<double>& errors);
 
-/// Position Verlet has this error after a fixed time. Returns its error with a step that is so many times smaller.
+/// `error` is position Verlet's error after a fixed time. Returns its error after the same time with a step that is
+/// `times_smaller` times smaller.
 double predicted_error(double error, double times_smaller);
 
 // ---- sag.cpp: how far the middle hangs below two ends at the same height, m, to a billionth of the length
