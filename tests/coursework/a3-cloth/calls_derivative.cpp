@@ -50,7 +50,7 @@ State trapezoidal(const Cloth& cloth, const State& state, double t, double h) {
 }  // namespace
 
 /// derivative (cloth, state, t): x' and v' of each particle.
-/// derivative_again (cloth, state, other, t): x' and v' at the state, before and after a call with the state `other`.
+/// derivative_again (cloth, state, other, t): x' and v' at `state`, at `other`, and again at `state`.
 /// cloth_path (cloth, state, h, steps, watched): position of the watched particle after each step.
 /// cloth_end (cloth, state, h, steps): positions of all particles after the last step.
 bool answer_derivative(const std::string& call, const Numbers& in, Numbers& out) {

@@ -5,7 +5,7 @@ namespace coursework::a4 {
 namespace {
 
 // a handful of operations on numbers of about 10 m or m/s have a round-off of 1e-14; friction divides by lengths of at
-// least 0.01, which raises it to 1e-12
+// least 0.01, which raises the round-off to 1e-12
 constexpr double round_off = 1e-9;
 
 Case contact_case(const char* call, const Sphere& sphere, int count, const char* column, int columns) {

@@ -218,7 +218,7 @@ Case network_of(Random& random, int count) {
     s.v.col(i) = random_vector(random, 2);
     s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
     for (int j = 0; j < i; ++j) {
-      // springs that are shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so that
+      // springs that are shortened by at most a tenth subtract at most 4 h^2 k / 10 < m / 2 from the matrix, so that
       // its condition number is below a hundred
       const double length = (s.x.col(i) - s.x.col(j)).norm(), k = random.uniform(0.5, 1.25) * 0.5 / (s.h * s.h);
       s.springs.push_back({i, j, k, length * random.uniform(0.6, 1.1), crosscheck::Family::single});

@@ -19,7 +19,7 @@ inline Net read_net(Reader& in) {
   return net;
 }
 
-/// Calls the student's function, which must not change `x` and must return a vector for every particle.
+/// Calls the student's function. It must not change `x`, and must return a vector for every particle.
 template <class Function>
 std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
   const std::vector<Vec3> given = x;
