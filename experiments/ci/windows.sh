@@ -31,7 +31,7 @@ check() { # FOLDER STATUS: builds and runs `check`, which must end with the stat
 failed=()
 for name; do
   printf '== %s\n' "$name"
-  folder=$work/作业/hand-out # the same folder for all assignments, so that a compiler cache finds what they share
+  folder=$work/作业/hand-out # the same folder for all assignments, so that a compiler cache finds the files that they share
   rm -rf "$folder"
   ./crosscheck assignment "$name" --out "$folder" >/dev/null
   sed -i 's/$/\r/' "$folder"/check/*.txt
