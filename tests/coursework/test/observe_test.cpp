@@ -227,7 +227,7 @@ TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
   const Texts common = common_texts();
   EXPECT_EQ(
       seen_at({answers(false), answers(true), common, own}, {"test/tiny", "", {}, {}}, "part", {one}, {true}).at(0),
-      "Of all cases tested, those with steps = 1 are right (2 of them), and all others wrong (2).");
+      "Of all tested cases, those with steps = 1 are right (2 of them), and all others are wrong (2 of them).");
 }
 
 /// Formula analysis for a stepper of this kind: f is linear, and the positions of its calls are recorded.
@@ -271,7 +271,7 @@ TEST(Look, ReadsAStepperOffItsCalls) {
   };
   EXPECT_EQ(rule(1, 1, 0.5), common_texts().of("rule.right"));
   EXPECT_EQ(rule(0.5, 1, 0.5), "Call 2 is at the time t + 1/2 h; right is t + h.");
-  EXPECT_EQ(rule(1, -1, 0.5), "Read off your calls of f: call 2 is at the state x - h k1; right is x + h k1.");
+  EXPECT_EQ(rule(1, -1, 0.5), "Your calls of f show that call 2 is at the state x - h k1; right is x + h k1.");
   EXPECT_EQ(rule(1, 1, 0.25),
             "Your step returns x + 1/2 h k1 + 1/4 h k2, where k1 is the first slope, k2 the second; right is x + 1/2 h "
             "k1 + 1/2 h k2.");
@@ -312,10 +312,9 @@ TEST(Look, ReadsTheEquationOfAnImplicitStep) {
                            "v - h c dv - h k e - h^2 k v - h^2 k dv."),
       std::string::npos)
       << equation(-1, 1);
-  EXPECT_EQ(
-      equation(1, 0),
-      "Read off your steps: the velocity is right along a line, and the new position is x + h v; right is x + h v "
-      "+ h dv.");
+  EXPECT_EQ(equation(1, 0),
+            "Your steps show that the velocity is right for motion along a line. The new position is x + h v; right is "
+            "x + h v + h dv.");
 }
 
 }  // namespace

@@ -251,7 +251,8 @@ TEST(Words, SayWhatWasExpectedWhatCameAndWhere) {
   EXPECT_EQ(say({How::answered, {1, 2, 3, 4.00000001}}, "en"),
             "First difference at step 1, x[1]: expected 4, got 4.00000001.");
   EXPECT_EQ(say({How::answered, {1}}, "en"), "Expected 4 numbers, got 1.");
-  EXPECT_EQ(say({How::answered, {1, 2}}, "en"), "Expected 4 numbers, got 2. Counted by step: expected 2, got 1.");
+  EXPECT_EQ(say({How::answered, {1, 2}}, "en"),
+            "Expected 4 numbers, got 2. Number of results, one per step: expected 2, got 1.");
   // a legend is separate from the names
   const Texts legends = Texts::parse("[row.step.legend]\nStep 0 is the start.\n", "legends");
   EXPECT_EQ(words(common_texts(), legends, what, wrong, judge(what, wrong)),
@@ -312,8 +313,9 @@ TEST(Words, OfASetTellWhatIsMissing) {
     return words(common, own, what, answer, judge(what, answer));
   };
   EXPECT_EQ(say({0, 1, 1, 3, 2, 3}), "Missing springs: (1, 2). Too many springs: (1, 3).");
-  EXPECT_EQ(say({0, 1, 2, 3}),
-            "Expected 6 numbers, got 4. Counted by spring: expected 3, got 2. Missing springs: (1, 2).");
+  EXPECT_EQ(
+      say({0, 1, 2, 3}),
+      "Expected 6 numbers, got 4. Number of results, one per spring: expected 3, got 2. Missing springs: (1, 2).");
 }
 
 TEST(Words, OfAnIndexTellWhichItWas) {
