@@ -101,8 +101,8 @@ TEST(StiffnessFigures, ShowTheClothBySagAndTheChainByPeriod) {
     for (const Curve& curve : f.curves) colours.insert(curve.style.colour);
     EXPECT_EQ(colours.size(), 4u) << "curves of the same colour would share a name";
     EXPECT_EQ(f.finding,
-              i == 0 ? "At a step of 16.7 ms with 16 iterations of pbd the cloth is 5 times softer than specified."
-                     : "At a step of 16.7 ms with 16 iterations of pbd the chain is 10 times softer than "
+              i == 0 ? "At a step of 16.7 ms with 16 iterations of pbd, the cloth is 5 times softer than specified."
+                     : "At a step of 16.7 ms with 16 iterations of pbd, the chain is 10 times softer than "
                        "specified.");
     EXPECT_FALSE(drawing_of(f).script.empty());
   }
