@@ -180,7 +180,7 @@ const std::vector<Breakage>& breakages() {
        "origin = [0, 1, 0]",
        "origin = [0, 1]",
        15,
-       {"grid.origin: expected three finite numbers [x, y, z], got [0, 1], which are 2"}},
+       {"grid.origin: expected three finite numbers [x, y, z], got [0, 1] (2 numbers)"}},
       {"a number for a vector",
        "acceleration = [0, -9.8100, 0]",
        "acceleration = -9.8100",

@@ -66,7 +66,7 @@ TEST(Statements, ATruthIsSaidToBeFoundByWhoFoundIt) {
   const auto truth = truth_of(s, {s.step, 0.2, 4});
   ASSERT_TRUE(truth);
   EXPECT_TRUE(contains(truth->how, "mysim/rk4 at"));
-  EXPECT_TRUE(contains(truth->how, "against odeint (Boost"));
+  EXPECT_TRUE(contains(truth->how, "compared with odeint (Boost"));
   EXPECT_EQ(truth->how.find("SUNDIALS"), std::string::npos);
 }
 

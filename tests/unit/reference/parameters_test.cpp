@@ -270,7 +270,7 @@ TEST(NumbersFile, SaysFileLineAndKey) {
         {"bullet/pbd", "step = 0.01\n", {"n.toml: expected at least one of mass, kDP, kLST", "bullet/pbd"}},
         {"bullet/pbd",
          "method = \"jolt\"\nstep = 0.01\nkLST = 0.5\n",
-         {"n.toml:1: method: expected the numbers of bullet/pbd, got those of jolt"}},
+         {"n.toml:1: method: expected parameters of bullet/pbd, got those of jolt"}},
         {"mysim/xpbd", "step = 0.01\ncompliance = 0\n", {"compliance: expected a number above zero, got 0"}},
         {"mysim/xpbd", "step = 0.01\niterations = 4\ncompliance = 1\n", {"iterations: expected 1 or no such key"}},
         {"mysim/xpbd", "step = 0.01\nc = 1\n", {"c: expected no such key", "the scene has no dashpot"}},
