@@ -84,7 +84,6 @@ const crosscheck::Stepper& stepper_named(const std::string& name) {
 
 std::span<const double> numbers(const crosscheck::Points& p) { return {p.data(), static_cast<std::size_t>(p.size())}; }
 
-/// Passes states to the user's observer; its return value false ends the run.
 class Watching final : public crosscheck::Observer {
  public:
   Watching(const mysim::Observer& observer, bool every_step) : observer_(observer), every_step_(every_step) {}

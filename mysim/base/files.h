@@ -49,7 +49,7 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// than a quarter of the free memory.
 std::optional<std::string> try_read_file(const std::filesystem::path& file);
 
-/// Returns the content of a file. Throws InputError with the file's name and `expected` ("a scene file (TOML)").
+/// Throws InputError with the file's name and `expected` ("a scene file (TOML)").
 std::string read_file(const std::filesystem::path& file, std::string_view expected);
 
 /// Creates a missing folder. Throws InputError with its name if files cannot be written into it.

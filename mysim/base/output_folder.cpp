@@ -185,7 +185,6 @@ void remove_empty_above(const fs::path& root, const fs::path& path) {
   }
 }
 
-/// Links the user's files in `target` into the new result `stage`.
 void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
   // links changed files of the earlier result last: their new names must not be those of other files

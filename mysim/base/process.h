@@ -79,7 +79,6 @@ class LineServer {
 /// CannotStart.
 int run_in_terminal(const std::vector<std::string>& argv);
 
-/// True if PATH contains a program of this name.
 bool on_path(const std::string& program);
 
 std::string last_lines(const std::string& text, int count);

@@ -71,7 +71,6 @@ struct Model {
   Particles particles;
   std::vector<Term> terms;
 
-  /// Returns the first term of type T, or null if the model has none.
   template <class T>
   const T* find() const {
     for (const Term& term : terms)

@@ -35,7 +35,6 @@ System::System(const Model& model) : model_(model) {
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
 }
 
-/// Sets forces_ to the sum over all terms for which wanted(term) is true.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());
@@ -56,7 +55,6 @@ void System::sum_forces(const State& stage, Wanted wanted) {
   ++evaluations_;
 }
 
-/// Computes a = forces_ / m, zero at pins.
 void System::set_acceleration(Points& a) const {
   const Particles& particles = model_.particles;
   assert(a.cols() == particles.size());

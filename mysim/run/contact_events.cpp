@@ -45,7 +45,7 @@ class ParticleStep {
         std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceTrack& track) { return inside(track, x, h); });
   }
 
-  /// Runs the whole step. Returns false if the particle touched no surface.
+  /// Returns false if the particle touched no surface.
   bool run() {
     for (int event = 0; event < most_events && done_ < h_; ++event) {
       find_contacts();
@@ -96,7 +96,7 @@ class ParticleStep {
   }
   Vec3 normal_at(const SurfaceTrack& track) const { return track.surface().normal(x_ - track.origin(done_)); }
   void put_on(const SurfaceTrack& track) { x_ = track.surface().put_on(track.origin(done_), x_, normal_at(track)); }
-  /// Puts the particle on the surface if it is inside. Returns false if it is already outside.
+  /// Returns false if the particle is already outside.
   bool put_outside(const SurfaceTrack& track) {
     if (!(gap(track, x_, done_) < 0)) return false;
     put_on(track);
@@ -336,7 +336,6 @@ class ParticleStep {
     }
   }
 
-  /// Completes a step with too many events by the rule for whole steps.
   void finish_by_whole_step() {
     const Vec3 x_n = x_, v_n = v_;
     const Point p = flight(h_ - done_);

@@ -47,7 +47,7 @@ class SurfaceTrack {
   Vec3 origin_, velocity_, end_origin_, end_velocity_, acceleration_, rest_;
 };
 
-/// Tracks for the step from t_n to t; the surfaces must outlive the tracks.
+/// The surfaces must outlive the tracks.
 std::vector<SurfaceTrack> surface_tracks(std::span<const Surface> surfaces, double t_n, double t);
 
 /// Advances a particle with drag rate gamma (1/s) through a step h (s) as described above. x and v are x* and v* on

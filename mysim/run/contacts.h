@@ -51,7 +51,7 @@ class Contacts {
   Contacts(const Model& model, ContactRule rule);
   bool any() const { return !surfaces_.empty(); }
   void begin(const State& s);
-  /// Resolves contacts with all surfaces over the whole step; returns true if any particle touched a surface.
+  /// Returns true if any particle touched a surface.
   bool resolve(State& s);
   /// Energy lost in the last resolve() (J); nothing if no particle touched a surface.
   const std::optional<double>& lost() const { return lost_; }

@@ -190,7 +190,6 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       s_(scene.start),
       seen_(scene.start) {}
 
-/// Root mean square of the ratio of estimated to allowed error.
 double AdaptiveWorld::error_ratio() {
   const State &error = pair_.error(), &next = pair_.next();
   const auto part = [&](const Points& e, const Points& from, const Points& to, double scale) {

@@ -77,8 +77,8 @@ struct Execution {
   int threads = 1;  // upper bound; small cloths use fewer. The number does not change the bits
 };
 
-/// Creates the world that steps the scene. For regular cloths, this is the fused step, which follows the same rule.
-/// Throws Unsupported with the reason if the stepper cannot run the scene. Stepper and scene must outlive the world.
+/// For regular cloths, the world applies the fused step, which follows the same rule. Throws Unsupported with the
+/// reason if the stepper cannot run the scene. Stepper and scene must outlive the world.
 std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
                                   const Observer& observer, const Execution& execution = {});
 

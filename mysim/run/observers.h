@@ -40,8 +40,6 @@ class Recorder : public Observer {
   Trajectory trajectory;
 };
 
-// The energy ledger: energies of a run, losses, external work, and the balance's residual.
-
 /// Integral of equally spaced samples, to fourth order: Simpson's 3/8 rule over the first three steps, then the
 /// Adams-Moulton weights (9, 19, -5, 1) h / 24.
 class Integral {
@@ -121,9 +119,6 @@ class MotionBoundsCache {
   std::map<double, MotionBounds> until_;                        // by time, s
   double none_from_ = std::numeric_limits<double>::infinity();  // s; runs of at least this duration have no bounds
 };
-
-// Detects failed runs: a particle is ten times as fast, or a spring ten times as long, as ever in the true motion, or
-// the state is not finite.
 
 /// Verdict::energy if a free particle, by central differences of positions, is more than ten times as fast as any in
 /// the true motion. Verdict::stretch if a spring, relative to its rest length, is more than ten times as long as any in

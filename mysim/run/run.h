@@ -68,7 +68,7 @@ class NullObserver : public Observer {
   Verdict observe(const State&, bool) override { return Verdict::ok; }
 };
 
-/// Passes states to several observers. The first verdict that is not ok counts.
+/// Several observers; the first verdict that is not ok counts.
 class Observers : public Observer {
  public:
   explicit Observers(std::vector<Observer*> list) : list_(std::move(list)) {}
@@ -104,10 +104,10 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
-  struct Face {                         // a plane
-    Vec3 point, normal;                 // m, 1: where particles touch at the start, including the margin
-    std::optional<double> friction;     // Coulomb's mu
-    std::optional<double> restitution;  // e
+  struct Face {          // a plane
+    Vec3 point, normal;  // m, 1: where particles touch at the start, including the margin
+    std::optional<double> friction;
+    std::optional<double> restitution;
   };
   /// Positions of pins, spheres and planes in the engine at another time.
   struct Places {

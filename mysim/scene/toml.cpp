@@ -344,7 +344,6 @@ void TomlTable::finish() const {
 
 namespace {
 
-/// Checks a file against the keys, one TOML table after another.
 class KeyCheck {
  public:
   KeyCheck(std::string_view text, const std::string& file, std::span<const Key> keys)

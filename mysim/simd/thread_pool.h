@@ -10,7 +10,7 @@ namespace crosscheck::simd {
 /// takes longer than a step of a small cloth.
 class ThreadPool {
  public:
-  /// `threads`: number of threads, including the calling thread, which is the first.
+  /// `threads` includes the calling thread, which is the first.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

@@ -13,7 +13,6 @@ void kick(const Eigen::ArrayXd& gamma, const Points& v, const Points& a, double 
     out.col(i) = v.col(i) + h / (1 + h / 2 * gamma[i]) * (a.col(i) - gamma[i] * v.col(i));
 }
 
-/// Kicks s.v by h with `by_position` and the velocity-dependent accelerations at the mean of old and new velocity.
 void kick_with_velocity_forces(System& f, State& s, const Points& by_position, double h, int passes, Workspace& w) {
   Points &old = w[1].x, &next = w[1].v, &a = w[2].v;
   old = s.v;
@@ -35,13 +34,13 @@ void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
   Points& a = w[0].v;
   const double start = s.t;
   s.t = start + h / 2;
-  s.x += h / 2 * s.v;             // drift to the midpoint
-  f.position_acceleration(s, a);  // kick with the force there
+  s.x += h / 2 * s.v;
+  f.position_acceleration(s, a);
   if (f.has_velocity_forces())
     kick_with_velocity_forces(f, s, a, h, passes, w);
   else
     kick(f.drag_rate(), s.v, a, h, s.v);
-  s.x += h / 2 * s.v;  // drift to the end
+  s.x += h / 2 * s.v;
   s.t = start;
 }
 

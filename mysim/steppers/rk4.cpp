@@ -1,5 +1,3 @@
-// The classic fourth-order Runge-Kutta rule.
-
 #include "mysim/steppers/steppers.h"
 
 namespace crosscheck {

@@ -48,7 +48,6 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
   Vec3 n = surface.normal(x - origin);
   x = surface.put_on(origin, x, n);
 
-  // friction opposes the tangential displacement of this step
   if (surface.friction > 0) {
     const Vec3 moved = x - x_n;
     const Vec3 along_normal = moved.dot(n) * n;
@@ -57,7 +56,6 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
     x = surface.put_on(origin, x, n);
   }
 
-  // the velocity into the surface is removed, and friction is proportional to it
   const double inward = v.dot(n);
   if (inward < 0) {
     const Vec3 tangential = v - inward * n;

@@ -12,7 +12,6 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // the number of tiles can be halved repeatedly, down to one or three; at most a third of the lanes stays empty
   int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
   return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};

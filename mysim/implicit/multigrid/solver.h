@@ -73,7 +73,7 @@ using simd::GridTopology;
 struct Layout {
   int rows, columns, tiles;
 
-  /// Chooses a number of tiles that can be halved often, with few empty lanes.
+  /// The number of tiles can be halved down to one or three; at most a third of the lanes stays empty.
   static Layout of(const GridTopology& topology);
   Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, tiles / 2}; }
   bool can_coarsen() const { return tiles % 2 == 0 && rows > 2; }
@@ -133,8 +133,6 @@ class Level {
   Matrix<double> exact_{};
 };
 
-// The V-cycle over a cloth's grids.
-
 class VCycle {
  public:
   VCycle(const GridTopology& topology, const std::vector<int>& pins);
@@ -168,8 +166,6 @@ class VCycle {
   Eigen::ArrayXd inertia_;  // per particle, as last set
   size_t coarsest_ = 0;     // first level on which relaxation alone suffices
 };
-
-// Conjugate gradients preconditioned by the V-cycle.
 
 class MultigridSolver {
  public:

@@ -23,7 +23,6 @@ Kernel<float> kernel(InstructionSet isa, bool fast) {
 
 namespace {
 
-/// Candidate column counts, from the largest index difference of a spring.
 std::vector<int> candidate_columns(const Springs& springs, int particles) {
   int farthest = 0;
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));

@@ -261,8 +261,7 @@ template <class T>
   return degenerate_springs;
 }
 
-/// Row by row, computes the forces of the springs that begin in the row. The forces on the row are then complete, and
-/// the row is kicked and drifted. Returns the number of degenerate springs that begin in the slab's own rows.
+/// Returns the number of degenerate springs that begin in the slab's own rows.
 template <class T, bool fast>
 long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
   assert(s.tiles >= 2);  // fits(): a spring crosses at most one lane

@@ -35,7 +35,6 @@ FORCE_INLINE V scale_of(V s, V k, V rest) {
 inline constexpr int registers_per_group = L::width == tile ? 1 : 2;
 inline constexpr int group_size = registers_per_group * L::width;
 
-/// Coordinates of the particles in these registers.
 struct Sums {
   V f[3][registers_per_group];
 };

@@ -17,7 +17,7 @@ enum class InstructionSet;
 /// dia_coo_kernels.h. Results depend neither on threads nor on the instruction set.
 class SpringKernel {
  public:
-  /// `particles`: number of particles. The law must be Hooke's or Bullet's link law.
+  /// The law must be Hooke's or Bullet's link law.
   SpringKernel(const Springs& springs, int particles);
   SpringKernel(SpringKernel&&) noexcept;
   ~SpringKernel();

@@ -60,7 +60,6 @@ struct SpringPartition {
   OrientedSprings coo;
   std::vector<Spring> plain;  // unchanged, for the plain loop
 };
-/// The cheapest partition.
 SpringPartition partition_springs(const std::vector<Spring>& springs, int particles, const Costs& costs);
 
 }  // namespace crosscheck::spring_graph
