@@ -98,7 +98,7 @@ std::vector<Method> all_methods();
 /// all_methods(), computed once.
 std::span<const Method> builtin_methods();
 
-/// The built-in method with this name, or null. For readers of tables, which contain such names.
+/// The built-in method with this name, or null.
 const Method* builtin_method(std::string_view name);
 
 /// The built-in method of a name with options, or null.

@@ -150,7 +150,6 @@ double distance(const Path& a, const Path& b) {
   return std::isfinite(most) ? most : infinity;
 }
 
-/// Every second state, at the times of a path with twice the step.
 Path every_second(const Path& path) {
   Path some;
   for (size_t i = 0; i < path.size(); i += 2) some.push_back(path[i]);
@@ -165,7 +164,7 @@ struct Runs {
   bool own_steps = false;
 };
 
-/// Runs the method at both steps. Throws Unsupported, or InputError if a run failed.
+/// Throws Unsupported, or InputError if a run failed.
 Runs runs_of(const Method& method, const Scene& scene) {
   Runs runs;
   bool single = true;

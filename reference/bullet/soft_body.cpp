@@ -85,8 +85,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
     bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
   }
-  // without contact the margin only limits speeds (to the diagonal of the body's box divided by the step), so it is
-  // made large
+  // without contact the margin only limits speeds, so it is made large
   if (!defaults.margin)
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
   bt_body_->updateBounds();  // with the constructor's margin, bounds would limit speeds in the first step
@@ -166,8 +165,7 @@ Readback SoftBody::read_back() const {
 
 namespace {
 
-/// Half the edge (m) of the cube whose face represents a plane. It is twice the distance that particles and plane may
-/// move from the middle of the scene's box; the factor of two allows for springs and wind.
+/// Half the edge (m) of a plane's cube (soft_body.h). The factor of two allows for springs and wind.
 double half_edge(const Scene& scene, const Plane& plane) {
   const auto* gravity = scene.model.find<Gravity>();
   const double t = scene.duration, g = gravity ? gravity->acceleration.norm() : 0;

@@ -14,11 +14,9 @@
 
 namespace crosscheck::bullet {
 
-// Pitfalls of Bullet (all measured). Pinned nodes must come last: the implicit world shifts its contact prediction by
-// one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared. Bodies slower
-// than 0.04 m/s fall asleep unless sleeping is disabled. A disconnected spring graph hangs the builder of the node
-// tree. The body's margin is 0.25 m unless set. The explicit world limits speeds to the diagonal of the body's box
-// divided by the step.
+// Pitfalls of Bullet (all measured), besides those in BulletDefaults. Pinned nodes must come last: the implicit world
+// shifts its contact prediction by one node per preceding pin. The explicit world limits speeds to the diagonal of the
+// body's box divided by the step.
 
 /// Converts vectors between mysim and Bullet, in Bullet's precision.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
@@ -40,7 +38,7 @@ struct BulletDefaults {
   bool rest = false;           // the first step overwrites rest lengths by current lengths
   bool margin = false;         // keeps the margin of 0.25 m
   bool sleep = false;          // bodies slower than 0.04 m/s for 2 s fall asleep
-  bool pieces = false;         // allow a network in pieces near a sphere, on which Bullet never returns
+  bool pieces = false;         // allow a network in pieces near a sphere, which hangs Bullet's node tree builder
   double gravity_factor = 1;   // the body's gravity factor, by which the world's gravity is divided
   std::optional<double> kLST;  // value for all links, whatever the scene's stiffness
 };

@@ -1,5 +1,5 @@
 // Jolt's soft body, compiled natively, as a program of the engine protocol: one body among static balls, with the
-// options and laws of npm's build (jolt.mjs). The README explains each changed default.
+// options and laws of npm's build. jolt.mjs explains them and each changed default.
 #include <Jolt/Jolt.h>  // must precede all other headers of Jolt
 
 #include <Jolt/ConfigurationString.h>
@@ -59,16 +59,16 @@ class SoftBody {
       made.mRestLength = float(edge.rest_length);
       shared->mEdgeConstraints.push_back(made);
     }
-    shared->Optimize();  // without it the first step reads out of bounds
+    shared->Optimize();
     const JPH::RVec3 position(origin[0], origin[1], origin[2]);
     JPH::SoftBodyCreationSettings creation(shared, position, JPH::Quat::sIdentity(), layer);
     creation.mNumIterations = static_cast<JPH::uint32>(iterations);
-    creation.mLinearDamping = float(damping);  // default 0.1 / s
-    creation.mMaxLinearVelocity = 1e15f;       // m/s; default 500, above which vertices are silently slowed down
-    creation.mUpdatePosition = false;  // otherwise the frame follows, and vertices are rounded once more per step
-    creation.mAllowSleeping = false;   // otherwise a body slower than 0.17 m/s for half a second stops
-    creation.mFriction = 1;            // contacts use sqrt(body's friction times sphere's)
-    creation.mRestitution = 0;         // contacts use the larger of body's and sphere's
+    creation.mLinearDamping = float(damping);
+    creation.mMaxLinearVelocity = 1e15f;  // m/s
+    creation.mUpdatePosition = false;
+    creation.mAllowSleeping = false;
+    creation.mFriction = 1;
+    creation.mRestitution = 0;
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
     if (!body) throw std::runtime_error("Jolt could not create the soft body");
@@ -161,9 +161,7 @@ Vec middle_of(const Scene& scene) {
   return {float((low[0] + high[0]) / 2), float((low[1] + high[1]) / 2), float((low[2] + high[2]) / 2)};
 }
 
-/// Spring forces (N) at x as Jolt computes them. Each spring is measured separately, in one step d, between a held
-/// vertex and a free vertex at the origin, where small displacements are not rounded away. The compliance is 1e6 w d^2,
-/// so the free vertex moves by w d^2 k (L - r) to within a millionth.
+/// Spring forces (N) at x as Jolt computes them, measured as in jolt.mjs.
 std::vector<Vec> spring_forces(const Scene& scene, const std::vector<Vec>& x) {
   std::vector<Vec> forces(x.size(), Vec{});
   constexpr double d = 1. / 1024;  // s
@@ -206,8 +204,7 @@ class JoltWorld : public World {
     // gravity and wind give all free particles the same acceleration
     if (scene_.wind) body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(t)));
     const double h = scene_.step;
-    // a held vertex is moved by setting its velocity; its position is set as well, because n sub-steps would accumulate
-    // n rounding errors
+    // jolt.mjs explains why held vertices get both velocity and position
     const Motion& motion = scene_.pin_motion;
     if (scene_.pins_move)
       for (const int pin : scene_.pins)
@@ -267,8 +264,7 @@ class JoltWorld : public World {
                   {"iterations", std::to_string(iterations)},
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
-    // A step ends on the plane that touched the ball where the step began, so the next step begins above the ball. This
-    // gap subtracts another half of v^2 / R from the depth that determines friction.
+    // jolt.mjs explains the additional half of v^2 / R
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(

@@ -162,7 +162,6 @@ double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool
   return most;
 }
 
-/// States whether the scene is within the range of its stiffness rule.
 std::string range_here(const Scene& scene, const NumberRule& rule, const Translation& t,
                        const std::vector<NumberContext>& at) {
   if (!rule.one_by_one) {

@@ -72,7 +72,6 @@ struct EngineNumbers {
 };
 std::span<const EngineNumbers> engine_numbers();
 
-/// The engine to which a scene is translated.
 struct TranslationTarget {
   std::string name;  // "bullet/pbd+n=4", "jolt+n=10"
   const EngineNumbers* numbers;
@@ -107,7 +106,6 @@ struct Translation {
 /// the scene.
 Translation translate(const Scene& scene, const TranslationTarget& target, double h);
 
-/// The content of a file of numbers.
 struct NumbersFile {
   double h = 0;  // s
   int iterations = 1;

@@ -297,12 +297,10 @@ struct Scene {
   std::vector<double> drag;  // N s/m, per particle; 0 without drag
   std::vector<std::string> options;
 
-  /// Acceleration by the wind (m/s^2); zero without wind.
   Vec wind_at(double t) const { return wind ? wind->at(t) : Vec{}; }
   Vec pin_at(size_t pin, double t) const {  // m, position of pins[pin]
     return pins_move ? pin_home[pin] + pin_motion.displacement(t) : pin_home[pin];
   }
-  /// The scene's term of this type, or nullptr.
   const Json* term(const std::string& type) const {
     for (const Json& t : json["terms"].list)
       if (t["type"].text == type) return &t;
@@ -321,7 +319,6 @@ struct Scene {
     for (const Plane& p : planes) moving |= dot(p.velocity, p.velocity) > 0;
     if (moving) unsupported("moving spheres and planes: " + why);
   }
-  /// Sets positions and velocities of the pins at time t (s).
   void place_pins(double t, std::vector<Vec>& at, std::vector<Vec>& speed) const {
     for (size_t i = 0; i < pins.size(); ++i) {
       at[pins[i]] = pin_at(i, t);
@@ -396,7 +393,7 @@ inline Scene read_scene(const std::string& file) {
 
 // Forces by the laws of PROTOCOL.md, for engines that accept external forces. All functions add to f (N).
 
-/// Adds spring forces. Returns the number of springs with coincident ends, which exert no force.
+/// Returns the number of springs with coincident ends, which exert no force.
 inline long add_springs(const Scene& scene, const std::vector<Vec>& x, std::vector<Vec>& f) {
   long coincident = 0;
   const bool hooke = scene.spring_law == "hooke";

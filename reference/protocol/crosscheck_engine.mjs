@@ -119,7 +119,6 @@ export class Scene {
     const { particles, home } = this.pins, { displacement, velocity } = this.pinMotion(t);
     return particles.map((particle, i) => ({ particle, x: home[i].map((e, k) => e + displacement[k]), v: velocity }));
   }
-  /// Writes the pins' positions and velocities at time t to x and v.
   placePins(t, x, v) {
     for (const pin of this.pinsAt(t)) x.set(pin.x, 3 * pin.particle), v.set(pin.v, 3 * pin.particle);
   }

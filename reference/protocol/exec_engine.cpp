@@ -175,7 +175,7 @@ void require_result_files(const fs::path& folder, const Scene& scene) {
 
 namespace {
 
-/// Reads the program's results. Throws InputError if they violate the protocol.
+/// Throws InputError if the results violate the protocol.
 Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
   require_result_files(folder, scene);
   if (fs::exists(folder / "run.json")) read_run_json(folder / "run.json", out, run.duration);

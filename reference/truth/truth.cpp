@@ -90,10 +90,8 @@ class RichardsonEstimate {
   using Distance = double (*)(const RoutePath&, const RoutePath&, size_t);
   explicit RichardsonEstimate(const RefinementStudy& study, Distance apart = apart_in_place)
       : study_(study), apart_(apart) {}
-  /// Error up to sample i, m (or J); call it with increasing i. Each refinement divides the error by r (2^p at order
-  /// p), so the error of the finest run is the last difference divided by r - 1. Returns three times this value,
-  /// because r itself is measured. If the differences do not halve, no order is visible, and the whole difference is
-  /// returned.
+  /// Error up to sample i, m (or J), estimated as truth.h describes; call it with increasing i. Each refinement divides
+  /// the error by r = 2^p. The estimate contains a factor of 3 because r is measured.
   double error_up_to(size_t i) {
     before_ = std::max(before_, apart_(study_.coarse, study_.middle, i));
     last_ = std::max(last_, apart_(study_.middle, study_.fine, i));
@@ -116,10 +114,9 @@ class ErrorOfTwoRoutes {
   ErrorOfTwoRoutes(const RefinementStudy& one, const RefinementStudy& other,
                    RichardsonEstimate::Distance apart = apart_in_place)
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
-  /// Error of the first route at sample i, m (or J); call it with increasing i. It is at least the route's own
-  /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
-  /// same way. If the second route has order 1, its error dominates and is of another kind: the sum is then replaced by
-  /// the larger of the distance and the second route's last change.
+  /// Error of the first route at sample i, m (or J), as truth.h describes; call it with increasing i. The second
+  /// route's estimate is added to the distance because both routes may err in the same way. An error of order 1 is of
+  /// another kind and dominates, so it is not added.
   double error_up_to(size_t i) {
     const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
                  between = apart_(one_.fine, other_.fine, i);
@@ -500,7 +497,6 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
     truth.error_bars.push_back(truth.error_bar);
     truth.until = fine->t[i];
   }
-  // a truth that ends before or at the first touch shows nothing about contact
   if (static_cast<int>(truth.error_bars.size()) <= span->touch + 1 || !(truth.error_bar < 0.01 * motion))
     return std::nullopt;
   truth.trajectory = std::move(*paths[2]);

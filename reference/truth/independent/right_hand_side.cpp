@@ -175,7 +175,6 @@ void RightHandSide::add_term(const Term& term) {
 
 StateVector RightHandSide::start() const { return start_; }
 
-/// Sets positions and velocities of all particles at time t.
 void RightHandSide::set_state(const StateVector& y, double t) {
   if (pin_motion_) {
     double displacement[3], velocity[3];
@@ -243,7 +242,6 @@ void RightHandSide::write_state(const StateVector& y, double t, State& state) {
     state.v = Points::Map(v_.data(), 3, n_);
 }
 
-/// A spring's force is a factor times the vector between its ends.
 void RightHandSide::add_spring_forces() {
   const double* x = x_.data();
   double* f = f_.data();

@@ -139,12 +139,10 @@ class CvodeWorld : public SundialsWorld {
     if (!memory_ || !solver_) throw SolverFailure("SUNDIALS: no memory");
     check_flag(CVodeInit(memory_.get(), rate, 0, solution()), "CVodeInit");
     check_flag(CVodeSetUserData(memory_.get(), static_cast<SundialsWorld*>(this)), "CVodeSetUserData");
-    // errors become exceptions, not lines on stderr
     check_flag(CVodeSetErrFile(memory_.get(), nullptr), "CVodeSetErrFile");
     check_flag(CVodeSetLinearSolver(memory_.get(), solver_.get(), nullptr), "CVodeSetLinearSolver");
     check_flag(CVodeSStolerances(memory_.get(), run.tolerance, run.tolerance * scene.size()), "CVodeSStolerances");
     check_flag(CVodeSetMaxNumSteps(memory_.get(), std::numeric_limits<long>::max()), "CVodeSetMaxNumSteps");
-    // more than the default of 7 attempts may fail at a jump of a motion's third derivative
     check_flag(CVodeSetMaxErrTestFails(memory_.get(), 100), "CVodeSetMaxErrTestFails");
     check_flag(CVodeSetInitStep(memory_.get(), std::min(run.step, run.duration) / 10), "CVodeSetInitStep");
   }
