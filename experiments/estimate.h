@@ -32,13 +32,12 @@ struct ResourceEstimate {
 /// Other engines store objects of their own, of 300 B for each spring and particle.
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run);
 
-/// A run of the given duration (s) with the scene's own sampling interval. Throws InputError if it would have more than
-/// a million samples. The message begins with --duration and states the numbers of samples and steps, the time and the
-/// disk space.
+/// A run of the given duration (s) with the scene's own sampling interval. Throws InputError, "--duration ...", if it
+/// would have more than a million samples.
 Run with_duration(const Method& method, const Scene& scene, Run run, double duration);
 
 /// Throws InputError if the run would take more than 1e12 steps, more memory than is free, or more disk than is free in
-/// `folder`. The message gives the number of steps and the time.
+/// `folder`.
 void require_resources_to_write(const Method& method, const Scene& scene, const Run& run,
                                 const std::filesystem::path& folder);
 /// As require_resources_to_write(), for runs whose frames are all kept in memory.

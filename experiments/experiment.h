@@ -21,7 +21,7 @@ namespace crosscheck {
 // A point is a unit of an experiment's work that does not depend on any other point. A sweep computes points in any
 // order, on any machine, and keeps their tables.
 
-/// The tables of one point or of several points. Rows of tables with the same name are joined.
+/// The tables of one point or of several points.
 struct TableSet {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
@@ -125,7 +125,7 @@ void conclude_matrix(TableSet& tables);
 void conclude_speed_accuracy(TableSet& tables);
 
 std::span<const Experiment> experiments();
-/// Also accepts former names. Returns nullptr if no experiment has this name.
+/// Also accepts former names.
 const Experiment* experiment_named(std::string_view name);
 /// Throws InputError with a suggestion if no experiment has this name.
 const Experiment& find_experiment(const std::string& name);
@@ -161,11 +161,9 @@ MethodResult recorded_result(const Method& method, const Scene& scene, const Run
 void add_energies(const Request& request, const Scene& scene, const std::optional<Truth>& truth, MethodResults& results,
                   TableSet& tables);
 
-/// Runs experiment `engines` on one scene, and adds its results to `results`.
 void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 
-/// One point for each scene of the request. `compute` receives a request with this scene only; the point's content is
-/// that of scene and request.
+/// `compute` receives a request with one scene only; the point's content is that of this scene and the request.
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
                                        void (*compute)(const Request&, const Scene&, TableSet&));
 

@@ -106,7 +106,7 @@ MeasuringRun own_run(const Scene& scene) {
   };
 }
 
-/// Measures with runs of the kind `by`. For converged runs, extrapolates an error of order 2 (order 1 for xpbd).
+/// For converged runs, extrapolates an error of order 2 (order 1 for xpbd).
 template <class Measure>
 std::optional<double> measured(const Scene& scene, MeasuredBy by, Measure measure) {
   if (by == MeasuredBy::own_method) return measure(own_run(scene));

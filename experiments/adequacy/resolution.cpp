@@ -25,7 +25,7 @@ Scene for_rest(Scene scene) {
 }
 
 /// Height difference between the highest and the lowest point of the cloth at rest, m. Moves the scene's start to the
-/// state of rest, because it is a good initial guess for the rest of a cloth with similar stiffness.
+/// state of rest, a good initial guess for similar stiffnesses.
 std::optional<double> settle_and_sag(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -133,7 +133,7 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
       if (list.empty()) return list;
       continue;
     }
-    // bisection in the logarithm of the stiffness: stiffer lines droop less
+    // bisection in the logarithm of the stiffness
     const BendSprings& last = list.back();
     double low = last.stiffness, high = last.stiffness * std::pow(double(n - 1) / (last.n - 1), 7);
     std::optional<double> d;

@@ -59,10 +59,10 @@ struct Advice {
 };
 
 /// Searches the full scene, and the smallest model whose own error is at most half the tolerance (StepSearch). Chooses
-/// with recommend(), as the report does. The search uses the errors at the samples. The chosen run is repeated, and its
-/// error observed after every step (dense_truth.h). If that error exceeds the tolerance, the search is repeated with
-/// errors observed after every step. Throws CannotGuarantee if no truth is known, its error bar exceeds a third of the
-/// tolerance, the tolerance exceeds the scene's motion, or no method meets the tolerance.
+/// with recommend(), as the report does. The search uses the errors at the samples. If the chosen run's error exceeds
+/// the tolerance between samples, the search is repeated with errors observed after every step (dense_truth.h). Throws
+/// CannotGuarantee if no truth is known, its error bar exceeds a third of the tolerance, the tolerance exceeds the
+/// scene's motion, or no method meets the tolerance.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 }  // namespace crosscheck

@@ -84,7 +84,6 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
           fmt::format("between samples the reference solution is known to {:.2g} m only, but {:.2g} m is requested",
                       bar_, tolerance));
   }
-  // the fastest motion turns by at most 0.79 rad (1/8 turn) between samples, and by 1/16 rad in the time resolution
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }

@@ -15,9 +15,9 @@ namespace crosscheck {
 double fastest_motion(const Scene& scene);
 
 /// The truth at any time up to the end of the guarantee. A closed form is evaluated directly. Converged truth is
-/// sampled at least eight times per period of the fastest motion. Between two samples, it is interpolated by cubics
-/// from their positions and velocities, except across impacts. The number of samples is doubled until the interpolation
-/// error, estimated by leaving out every other sample, is below a thirtieth of `tolerance` (m).
+/// sampled at least eight times per period of the fastest motion. Between two samples, it is interpolated by cubics,
+/// except across impacts. The number of samples is doubled until the interpolation error, estimated by leaving out
+/// every other sample, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
   /// Throws CannotGuarantee if no truth is known, or if it would need too many samples.

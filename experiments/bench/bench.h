@@ -31,7 +31,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
 struct BenchResult {
   std::vector<BenchRow> rows;
-  std::vector<std::string> notes;  // omissions and their reasons
+  std::vector<std::string> notes;
 };
 /// Measures threads first. Then binds the process to one core permanently, and measures kernels, scenes, the implicit
 /// step, and peers at the same error and at the same step.

@@ -116,7 +116,7 @@ struct FallingCloth {
   }
 };
 
-/// mysim's solver. Its instruction set is chosen when the solver is created.
+/// The solver's instruction set is chosen when the solver is created.
 struct MysimStep {
   System system;
   ImplicitStep step;

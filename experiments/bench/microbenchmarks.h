@@ -19,9 +19,9 @@ struct MicrobenchmarkOptions {
   double seconds = 0.02;  // duration of each piece in each round
 };
 
-/// CPU time of one run of each piece, s, by name and round. A round runs all pieces one after the other, so that a slow
-/// spell of the machine affects all of them and ratios within a round stay precise. Waits until no other Crosscheck
-/// process is measuring on this machine (experiments/timing/machine.h). Names must be unique.
+/// CPU time of one run of each piece, s, by name and round. A round runs all pieces in turn, so that ratios within a
+/// round stay precise. Waits until no other Crosscheck process is measuring on this machine
+/// (experiments/timing/machine.h). Names must be unique.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& options,
                                                                const LockPatience& patience);

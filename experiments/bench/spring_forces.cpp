@@ -26,7 +26,6 @@ BenchmarkFunction naive_loop(const Scene& scene) {
       work->f[s.a] += force;
       work->f[s.b] -= force;
     }
-    // prevents the compiler from optimising the work away
     asm volatile("" : : "r"(work->f.data()) : "memory");
   };
 }

@@ -13,8 +13,7 @@ namespace crosscheck {
 namespace {
 
 constexpr auto rule = "mysim/leapfrog";
-/// If two threads get less than this share of their cores' time, other processes take more than 5 % of it, which is the
-/// difference between speedups of 1.9 and 2.
+/// A loss of 5 % is the difference between speedups of 1.9 and 2.
 constexpr double nearly_all = 0.95;
 
 double cpu_of_all_threads() {
@@ -40,7 +39,6 @@ class TimedCloth {
     return wall / static_cast<double>(steps);
   }
   int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
-  /// Fraction of their cores' time that the threads got.
   double share() const { return timing_of(share_).median; }
 
  private:

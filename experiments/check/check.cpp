@@ -25,7 +25,7 @@ const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak
   return nullptr;
 }
 
-/// Marks all relations as not applicable if all runs of a program crashed: they show nothing about its mechanics.
+/// Crashed runs show nothing about the mechanics of a program.
 void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
   const auto says_nothing = [](const Answer& a) {
     return a.mark == RelationMark::not_applicable || a.failure == Verdict::crash;

@@ -50,7 +50,7 @@ namespace fs = std::filesystem;
 // Together, these scenes contain every ingredient of the protocol except the wind on triangles.
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
-// Time limit of a call, s. A step of these scenes takes microseconds, and an interpreter starts in less than a second.
+// s; a step of these scenes takes microseconds, and an interpreter starts in less than a second
 constexpr double call_limit = 30;
 
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
@@ -396,7 +396,6 @@ class Kit {
     }
   }
 
-  /// Modifies the first supported scene as a later version or a careless caller might write it.
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const char* name : kit_scenes) {
@@ -443,7 +442,7 @@ class Kit {
   Program program_;
   Method method_;
   ConformanceReport report_;
-  int taken_ = 0;  // number of scenes that the program did not refuse
+  int taken_ = 0;  // scenes that the program accepted
   bool has_readback_ = false;
   bool hangs_ = false;
   std::string first_json_;  // name of the scene whose run.json is reported key by key

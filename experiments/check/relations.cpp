@@ -15,8 +15,6 @@
 namespace crosscheck {
 namespace {
 
-// reasons why a relation does not apply to a scene; empty if it applies
-
 std::string any_scene(const Scene&) { return ""; }
 std::string with_springs(const Scene& s) {
   return s.model.find<Springs>() || s.model.find<Constraints>() ? "" : "no springs";

@@ -37,13 +37,11 @@ struct Relation {
 };
 
 std::span<const Relation> relations();
-/// Returns nullptr if no relation has this name.
 const Relation* relation_named(std::string_view name);
 /// Throws InputError with a suggestion if no relation has this name.
 const Relation& find_relation(const std::string& name);
 
-// relations of transformed scenes are defined in transformed.cpp, those of mechanics in mechanics.cpp, and those
-// between different settings of one scene in settings.cpp
+// relations, defined in transformed.cpp, mechanics.cpp and settings.cpp
 
 RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed);
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed);

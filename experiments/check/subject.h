@@ -1,5 +1,4 @@
-// The engine under test: its runs, each of which is computed only once, and a bound on the effect of rounding errors on
-// the runs.
+// The engine under test: its runs, and a bound on the effect of rounding errors on them.
 #pragma once
 
 #include <map>
@@ -43,7 +42,6 @@ class Subject {
   /// Computes each run only once. Throws CannotBeAsked if the engine refuses the scene, and RunFailed if the run fails.
   const SubjectRun& run(const Scene& scene, const Run& run);
   const SubjectRun& run(const Scene& scene) { return this->run(scene, run_for_relations(scene)); }
-  /// Computes the run again in every call.
   SubjectRun fresh_run(const Scene& scene, const Run& run);
 
   /// Half the distance from 1 to the next number in the engine's precision. The method declares the precision, or it is

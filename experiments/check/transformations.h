@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// The map x' = turn x + shift, where `turn` is orthogonal: a rotation or a reflection.
+/// The map x' = turn x + shift, where `turn` is orthogonal.
 struct Placement {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Vec3 shift = Vec3::Zero();  // m

@@ -116,7 +116,6 @@ Trajectory each_step(const Method& method, const Scene& scene, double step, Outc
   return std::move(recorder.trajectory);
 }
 
-/// Angle from the top (degrees) and speed at which the gap to the ball equals `gap`, interpolated over a step.
 Leaving passing(const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1) {
   const double before = x0.norm() - ball - gap, after = x1.norm() - ball - gap, part = before / (before - after);
   const Vec3 x = x0 + part * (x1 - x0);

@@ -30,7 +30,7 @@ class MirrorSymmetry {
 
  private:
   Vec3 centre_;
-  std::array<std::vector<int>, 2> partner_;  // for the planes normal to x and to z
+  std::array<std::vector<int>, 2> partner_;
 };
 
 /// A particle dropped from 0.3 m onto the top of a ball of 0.5 m with a coefficient of restitution e.

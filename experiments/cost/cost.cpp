@@ -22,7 +22,6 @@ namespace {
 /// Prevents the compiler from optimising away the work on `data`.
 void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
 
-/// Compiled for each instruction set; at run time the best one of the machine is used.
 #if defined(__SANITIZE_ADDRESS__)
 // no clones: the function that chooses one runs before the sanitizer is ready
 #else
@@ -80,7 +79,7 @@ struct TimedLoop {
   std::shared_ptr<double> count = std::make_shared<double>(1);
 };
 
-/// Loop over steps of a method. `run` returns 0 if the method does not support the scene.
+/// `run` returns 0 if the method does not support the scene.
 TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
   TimedLoop loop;
   loop.run = [&method, &scene, steps, outcome, count = loop.count] {

@@ -29,8 +29,8 @@ Kernel triad_kernel(double bytes);
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, TableSet& tables);
 /// `phases-cost`: phases of a step on a cloth above a sphere. For mysim's leapfrog in the general engine: springs,
-/// other forces, contact and the rest of the step. For its fused step, which does everything in one pass: the whole
-/// step. For Bullet's worlds: the whole step, because their phases cannot be observed from outside.
+/// other forces, contact and the rest of the step. For its fused step (a single pass) and Bullet's worlds (whose phases
+/// cannot be observed): the whole step.
 void cost_of_phases(const Request& request, int n, TableSet& tables);
 /// Table `phases-cost` from measured times (s). For methods[0], these are the times of the springs, of all forces, of a
 /// step without the sphere and of a step with it. The times of whole steps of the other methods follow.

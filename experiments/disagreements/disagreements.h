@@ -24,9 +24,8 @@ struct DirectionError {
 /// method cannot run the scene.
 std::vector<DirectionError> direction_errors(const std::string& method, Scene scene, const std::vector<double>& angles);
 
-// Each disagreement has the smallest scene that shows it, its cause, the measured size of its effect, and the upstream
-// threads that it explains. To add one, write a scene file in scenes/disagreements/, a row in disagreements/table.cpp
-// and a section in disagreements.md.
+// To add a disagreement, write the smallest scene that shows it in scenes/disagreements/, a row in
+// disagreements/table.cpp and a section in disagreements.md.
 
 /// One curve of the figure: a method at a step, possibly on a modified scene or with another spring law.
 struct Variant {

@@ -36,7 +36,6 @@ std::string over_relaxation_effect(const std::vector<Series>& all);
 std::string small_effect(const std::vector<Series>& all);
 std::string sleeping_effect(const std::vector<Series>& all);
 
-/// The direction of contact as a function of the angle, extrapolated to step 0.
 TableWithSentence directions(const Disagreement& d);
 
 void ten_times_stiffer(Scene& scene);

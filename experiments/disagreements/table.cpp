@@ -15,8 +15,7 @@ namespace {
 using namespace effects;
 constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within, hangs = Condition::Kind::hangs;
 
-/// Adds heading, cause and threads from the section "# NAME" of disagreements.md. If threads are known, the last
-/// paragraph of the section begins with "Upstream: ". Throws std::logic_error if there is no such section.
+/// If threads are known, the last paragraph of a section in disagreements.md begins with "Upstream: ".
 void add_texts(Disagreement& row) {
   static const std::string file =
       read_file(data_folder() / "experiments/disagreements/disagreements.md", "the texts of disagreements");

@@ -82,12 +82,9 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
   if (!table.rows.empty()) tables.add(table);
 }
 
-/// The truth, and the run with which all runs of a scene are compared.
 struct Standards {
   Standards(const Request& request, const Scene& scene, const Run& run, MethodResults& results)
-      : truth(truth_of(scene, run)),
-        // the distance from the converged contact rule of mysim is a difference, not an error
-        of_rule(truth && truth->under_contact_rule) {
+      : truth(truth_of(scene, run)), of_rule(truth && truth->under_contact_rule) {
     const std::string of(request.reference.empty() ? subject().representative : request.reference);
     const auto requested = std::ranges::find(request.methods, of, &Method::name);
     method = requested == request.methods.end() ? find_method(of) : *requested;

@@ -136,8 +136,6 @@ Points wavy(const DrapedDisc& disc, int waves, unsigned seed) {
 }
 
 Points on_net(const DrapedDisc& from, const Points& x, const DrapedDisc& to) {
-  // interpolates offsets from the flat sheet by cubics, which pass through four particles along a spoke and along a
-  // ring
   const Points offset = x - disc_scene(from).start.x;
   Points y = disc_scene(to).start.x;
   for (int i = 2; i <= to.rings + 1; ++i)

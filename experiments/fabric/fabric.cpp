@@ -130,7 +130,6 @@ struct Drape {
   double energy;
 };
 
-/// Returns nullopt if there is no rest near the guess.
 std::optional<Drape> drape_from(const DrapedDisc& disc, const std::string& start, const Points& guess) {
   const Scene scene = disc_scene(disc);
   const auto rest = rest_near(scene, guess);

@@ -17,8 +17,7 @@ constexpr double gravity = 9.81, hanging_span = 0.7 * strip_length;
 
 double cell_of(const StripNet& net) { return strip_length / net.cells; }
 
-/// The springs extend by a millionth of the strip's length under the load (N/m). A rigidity of 0 leaves out the bending
-/// term, and a skip-one stiffness of 0 the skip-one springs.
+/// `load`: N/m. A rigidity of 0 leaves out the bending term, and a skip-one stiffness of 0 the skip-one springs.
 Scene two_rows(int cells, double from, double load, const std::array<int, 4>& pins, double rigidity, double skip_one) {
   const double d = strip_length / cells, k = load * 1e6 / 2;  // two rows, each with stiffness k, on a width of d
   return parse_scene(

@@ -11,13 +11,12 @@ namespace crosscheck {
 
 /// Two rows of particles, one cell length apart. Bending is resisted by the bending term or by skip-one springs.
 struct StripNet {
-  int cells;            // number of cells along the strip
+  int cells;
   double gamma;         // w L^3 / B
   double tip_load = 0;  // P L^2 / B; the load P acts on the last two particles, half a cell from the tip
   std::optional<double> skip_one = {};  // N/m, stiffness of skip-one springs that replace the bending term
 };
 
-/// The strip as a continuum: 0.2 m long, 0.2 kg/m^2.
 ClampedStrip continuum_of(const StripNet& net);
 constexpr double strip_density = 0.2;  // kg/m^2
 constexpr double strip_length = 0.2;   // m

@@ -22,7 +22,6 @@ struct Case {
   std::string in_words() const;
 };
 
-/// A number with its unit, or a word.
 struct Quantity {
   std::string name, unit;
   double value = 0;
@@ -46,8 +45,7 @@ struct CaseRun {
 /// the estimate, which is multiplied by 350 in builds with assertions.
 CaseRun run_case(const Case& test_case);
 
-/// The scene's own step, tolerance and sampling times up to the end of its window. Beyond the window, single positions
-/// are unpredictable.
+/// The scene's own step, tolerance and sampling times up to the end of its window.
 Run run_over_window(const Scene& scene);
 
 /// The quantities of a run, in the fixed order of the table in quantities.cpp. For a failed run: the verdict, the time

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case and the name of its result. With tolerances, the case needs three or four more runs.
+/// With tolerances, a case needs three or four more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -23,8 +23,8 @@ struct Job {
 
 struct JobResults {
   std::map<std::string, std::vector<QuantityWithTolerance>>
-      quantities;                     // by name of the job; tolerances are 0 if the job does not compute them
-  std::vector<FailedPoint> failures;  // cases without a result, because of a crash
+      quantities;  // by name of the job; tolerances are 0 if the job does not compute them
+  std::vector<FailedPoint> failures;
 };
 
 /// A quantity as the process that ran the case passes it to the parent.
@@ -107,7 +107,7 @@ std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1
 /// False if the method refused the scene.
 bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
 
-/// Reads the baselines of scenes. Reports a missing, stale or unreadable file as a failed row.
+/// Reports a missing, stale or unreadable file as a failed row.
 class BaselineCache {
  public:
   BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
@@ -298,7 +298,7 @@ class Change {
   std::vector<Comparison> changed_;
 };
 
-/// The last shape under the scene's own method, for pictures; empty if there is none.
+/// Empty if there is no shape.
 std::string shape_of(const Case& q) {
   const CaseRun part = comparable_part(run_case(q));
   if (part.trajectory.frames() == 0) return "";

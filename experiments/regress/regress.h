@@ -35,7 +35,7 @@ struct RegressionResult {
 RegressionResult regress(const Regression& regression, Progress& progress);
 
 struct BlessResult {
-  bool measured = false;                                             // true if some method accepted its scene
+  bool measured = false;
   std::vector<Comparison> changed;                                   // before and after
   std::vector<std::pair<std::filesystem::path, std::string>> files;  // paths and contents of the files to write
   std::map<std::string, int> numbers;                                // number of the blessing in each changed baseline

@@ -11,7 +11,6 @@
 
 namespace crosscheck {
 
-/// Date, commit, build and reason of a blessing.
 struct Blessing {
   std::string date, commit, build, reason;
 };
@@ -28,7 +27,6 @@ double finite_number(const std::string& text, const std::string& what);
 /// A whole number from 1 to `most`.
 int number_up_to(size_t most, const std::string& text, const std::string& what);
 
-/// Replaces line breaks by spaces.
 std::string one_line(std::string text);
 
 std::string without_prefix(const std::string& begin, const std::string& line);
@@ -43,7 +41,7 @@ class StrictCsvReader {
   explicit StrictCsvReader(const std::filesystem::path& file) : in_(read_file(file, "a file of baselines")) {}
   const std::string& line() const { return line_; }
   int number() const { return number_; }
-  /// Reads the next line. Throws InputError if there are no more lines.
+  /// Throws InputError if there are no more lines.
   void next();
   /// Reads consecutive lines "# blessing 1: ...", "# blessing 2: ...", of which the current line is the first.
   std::vector<Blessing> blessings();

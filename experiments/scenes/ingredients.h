@@ -19,7 +19,7 @@ struct Ingredient {
 /// as one ingredient.
 std::vector<Ingredient> ingredients_of(const Scene& scene);
 
-/// Removes an ingredient. Recomputes the hash, but keeps the text.
+/// Recomputes the scene's hash, but keeps its text.
 Scene without(const Scene& scene, const Ingredient& ingredient);
 
 /// Number of springs and hard distances, at least 1. The cost of a force evaluation is proportional to it.

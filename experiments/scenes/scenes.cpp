@@ -17,7 +17,6 @@ namespace {
 std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" / "scenes"; }
 std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
-/// Scenes of full runs only; quick runs keep one cloth of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
                                                   "floor-drop",  "cloth-small",      "room-bounce"};

@@ -74,11 +74,10 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
                   bool whole) {
   Run run = setting.applied_to(base);
   if (!method.fingerprint.empty()) return {run};  // external programs take an unknown time to start
-  const bool touches = has_contact(scene.model);  // contact may cost more than the fall before the contact
+  const bool touches = has_contact(scene.model);
   if (method.adaptive && (touches || whole)) return {run};
   const double enough = full ? 0.02 : 0.006;  // s: equals thousands of clock ticks
-  // s. Runs cheaper than this are timed whole; most runs of a quick report are. To time the other runs whole would take
-  // half a minute on one core
+  // s; longer runs are timed in part only, which saves half a minute on one core
   const double cheap = full ? 0.2 : 0.012;
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
@@ -239,7 +238,6 @@ std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Set
   return settings;
 }
 
-/// Adds runs between the last step that misses the bound and the first that meets it, for a precise cheapest run.
 void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
             std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
   const auto bound = of.bound();
@@ -361,7 +359,6 @@ struct TimedRow {
   }
 };
 
-/// Rows of the recommended run, of the runs tied with it, and of the cheapest run of each other engine.
 std::vector<size_t> compared_rows(const std::vector<TimedRow>& timed, const std::vector<Timing>& times) {
   std::map<std::string, size_t> cheapest;  // by engine
   std::vector<size_t> compared;

@@ -55,8 +55,8 @@ TrajectoryDistance distance_over_time(const Trajectory& a, const Trajectory& b, 
 /// that misses that accuracy and the first run that meets it. Notes list the omissions.
 void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables);
 /// Adds the rows of `speed-accuracy-timing-cost`: the runs of `rows`, timed in turns. For long runs, only the first
-/// part is timed, because each evaluation without contact costs the same. The recommended run, its ties, and each other
-/// engine's cheapest run within 1 % of the motion are timed whole.
+/// part is timed (part_of()). The recommended run, its ties, and each other engine's cheapest run within 1 % of the
+/// motion are timed whole.
 void time_speed_accuracy(const Request& request, const Scene& scene, const TableSet& rows, TableSet& tables);
 
 /// Required accuracy of the run that the report recommends, as a fraction of the motion.

@@ -102,7 +102,7 @@ class Batch {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);
-      _exit(0);  // without the parent's destructors
+      _exit(0);
     }
     pids_[worker] = pid;
   }

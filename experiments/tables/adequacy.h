@@ -50,7 +50,6 @@ struct AdequacyRow {
   COLUMN(double, cost, "cost", "spring evaluations", "force evaluations times springs");
 };
 
-/// The smallest sufficient model of a scene at one tolerance.
 struct LeastModelRow {
   TABLE("adequacy-least");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -8,7 +8,6 @@ namespace crosscheck {
 template <>
 inline constexpr std::pair range_of<simd::InstructionSet>{simd::InstructionSet::baseline, simd::InstructionSet::avx512};
 
-/// The times of a peer and of mysim for the same work, and their ratio.
 struct BenchRow {
   TABLE("bench-cost");
   COLUMN(std::string, work, "work", "1", "kind of work");

@@ -8,7 +8,6 @@ namespace crosscheck {
 template <>
 inline constexpr std::pair range_of<Parity>{Parity::match, Parity::unattested};
 
-/// A value read back from an engine's memory, and the value that the scene requests.
 struct AttestedRow {
   TABLE("certificates");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -36,7 +36,6 @@ struct LeavingRow {
   COLUMN(double, speed_by_theory, "speed by theory", "m/s", "that speed by theory");
 };
 
-/// A scene with contact at one step, compared with its truth.
 struct ContactOrderRow {
   TABLE("sphere-order");
   COLUMN(std::string, probe, "probe", "1", "scene");

@@ -29,7 +29,6 @@ struct DisagreementCurveRow {
   COLUMN(double, value, "QUANTITY", "UNIT", "quantity that shows the disagreement; the file has its name and unit");
 };
 
-/// Direction in which a ball pushes a particle.
 struct ContactAngleRow {
   TABLE("NAME-angles");
   COLUMN(std::string, method, "method", "1", "method that was run");

@@ -4,7 +4,6 @@
 
 namespace crosscheck {
 
-/// A strip clamped horizontally at one end, at rest.
 struct CantileverRow {
   TABLE("fabric-cantilevers");
   COLUMN(std::string, load, "load", "1", "load that bends the strip");

@@ -26,7 +26,6 @@ struct MeasuredLimit {
   std::string reason;           // for a refusal
   /// Geometric mean of the bracket, s.
   double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
-  /// Width of the bracket divided by its lower end.
   double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 

@@ -42,8 +42,8 @@ struct TimingOptions {
 
 /// Times of every repetition of every run. Each run does its work once and returns its CPU time, s. After one warm-up
 /// of each, all runs are executed one after the other, round by round, so that a slow spell of the machine affects all
-/// of them. A run that returns 0 has no time (a program without a clock, or a method that refused). It is not repeated,
-/// and its only time is 0.
+/// of them. A run that returns 0 has no time (a program without a clock, or a method that refused). It is not repeated:
+/// its only time is 0.
 std::vector<std::vector<double>> time_round_robin(std::span<const std::function<double()>> runs,
                                                   const TimingOptions& plan);
 
@@ -81,8 +81,7 @@ struct TimedRunOptions {
 };
 
 /// CPU time of each run divided by its number of evaluations, without observers. Without contact each evaluation costs
-/// the same, so that the first part of a run suffices. A round executes all runs. A run that reports no time, or fails
-/// immediately, has no times.
+/// the same, so that the first part of a run suffices. A run that reports no time, or fails immediately, has no times.
 std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan,
                                               const LockPatience& patience);
 
