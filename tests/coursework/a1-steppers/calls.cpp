@@ -1,4 +1,4 @@
-// Dispatches the assignment's calls to its parts. All three steppers answer the same calls.
+// All three steppers answer the same calls.
 #include "calls.h"
 #include "calls_steppers.h"
 

@@ -1,4 +1,3 @@
-// Tests of the chain.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -1,4 +1,3 @@
-// Tests of the pendulum.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// Random sheets of cloth, and their encoding as numbers of the calls.
 #include "tests/coursework/a3-cloth/cases.h"
 
 #include <cmath>

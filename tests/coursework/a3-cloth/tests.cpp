@@ -1,4 +1,3 @@
-// The tests of the cloth assignment and their points.
 #include "tests/coursework/a3-cloth/cases.h"
 #include "tests/coursework/grader/assignment.h"
 

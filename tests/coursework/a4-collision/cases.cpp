@@ -1,4 +1,3 @@
-// Random spheres, and their encoding as numbers of the calls.
 #include "tests/coursework/a4-collision/cases.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,3 @@
-// The tests of the collision assignment and their points.
 #include "tests/coursework/a4-collision/cases.h"
 #include "tests/coursework/grader/assignment.h"
 

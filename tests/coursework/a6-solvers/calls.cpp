@@ -1,4 +1,3 @@
-// Dispatches the assignment's calls to its parts.
 #include "calls.h"
 
 namespace coursework {

@@ -1,4 +1,4 @@
-// A function that dispatches all calls of the student's code; each assignment defines it. C++17, standard library only.
+// A function that dispatches all calls of the student's code; each assignment defines it.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-// A call of the student's code and the expected answer. Shared by the grader and the hand-out's `check`: C++17,
-// standard library only.
+// A call of the student's code and the expected answer. The files that the grader shares with the hand-out's `check`
+// need only C++17 and the standard library.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The public tests as a text file: calls and right answers. C++17, standard library only.
+// The public tests as a text file: calls and right answers.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,3 @@
-// Compares an answer with the expected one. C++17, standard library only.
 #pragma once
 
 #include "case.h"

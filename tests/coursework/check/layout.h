@@ -1,4 +1,4 @@
-// Layout of the numbers of a call, as declared in the texts under "given.CALL". C++17, standard library only.
+// Layout of the numbers of a call, as declared in the texts under "given.CALL".
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Sequential access to a list of numbers. C++17, standard library only.
+// Sequential access to a list of numbers.
 #pragma once
 
 #include <vector>

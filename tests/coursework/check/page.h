@@ -1,5 +1,4 @@
-// mine.html: each public test with its feedback, and the student's curve over the right one. C++17, standard library
-// only.
+// mine.html: each public test with its feedback, and the student's curve over the right one.
 #pragma once
 
 #include <string>

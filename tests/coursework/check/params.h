@@ -1,5 +1,4 @@
-// The named numbers of a call: all numbers under one name, in all repetitions of a group, form one parameter. C++17,
-// standard library only.
+// The named numbers of a call: all numbers under one name, in all repetitions of a group, form one parameter.
 #pragma once
 
 #include <string>

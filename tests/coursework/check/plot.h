@@ -1,4 +1,4 @@
-// A small plot of the student's curve over the right one. C++17, standard library only.
+// A small plot of the student's curve over the right one.
 #pragma once
 
 #include <string>

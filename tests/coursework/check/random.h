@@ -1,4 +1,4 @@
-// Seeded numbers that are the same on every machine. C++17, standard library only.
+// Seeded numbers that are the same on every machine.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// Tries simple explanations of a wrong answer one by one, by direct arithmetic.
 #include "seen.h"
 
 #include <algorithm>

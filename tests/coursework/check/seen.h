@@ -1,5 +1,4 @@
-// Diagnosis of a wrong answer: which parts are right, and what explains the wrong numbers. C++17, standard library
-// only.
+// Diagnosis of a wrong answer: which parts are right, and what explains the wrong numbers.
 #pragma once
 
 #include <string>

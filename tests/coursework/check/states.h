@@ -1,4 +1,4 @@
-// States of particles in the calls of an assignment whose State has two vectors, x and v. C++17, standard library only.
+// States of particles in the calls of an assignment whose State has two vectors, x and v.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// The texts of an assignment in one language. C++17, standard library only.
+// The texts of an assignment in one language.
 #pragma once
 
 #include <map>

@@ -1,5 +1,4 @@
-// Feedback on one call of a student's code, for both the hand-out's `check` and the grader. C++17, standard library
-// only.
+// Feedback on one call of a student's code, for both the hand-out's `check` and the grader.
 #pragma once
 
 #include <string>

@@ -1,4 +1,3 @@
-// Lays out a submission in one folder, where all of its includes are found, and plans the compiler's calls.
 #include "tests/coursework/classic/build_plan.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Dispatch tables with one line for each column of the texts. They return the features to compare, and text that shows
-// question and answer for the first wrong particle or spring.
+// Dispatch tables with one line for each column of the texts.
 #include <algorithm>
 #include <cmath>
 #include <optional>

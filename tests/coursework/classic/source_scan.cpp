@@ -1,4 +1,3 @@
-// The queries on the tokens of sources, the roles of classes, and the choice of a submission's files.
 #include "tests/coursework/classic/source_scan.h"
 
 #include <algorithm>

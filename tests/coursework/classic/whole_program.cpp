@@ -1,4 +1,3 @@
-// Runs a build plan in a sandbox, finds the parts in the whole program, and reports errors.
 #include "tests/coursework/classic/whole_program.h"
 
 #include <fmt/format.h>

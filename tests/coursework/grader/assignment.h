@@ -1,5 +1,4 @@
-// Assignments with their parts, tests and points. assignments.cpp has the table of all assignments; a new one needs a
-// folder and a row.
+// Assignments with their parts, tests and points. assignments.cpp has the table.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,3 @@
-// Finds the compiler and the cache, parses compiler messages, and links one file per part with the official versions of
-// earlier parts.
 #include "tests/coursework/grader/build.h"
 
 #include <fmt/format.h>
@@ -301,7 +299,6 @@ class PartBuilder : public Builder {
     return {made};
   }
 
-  /// Compiles the student's part.
   Built compiled(const std::string& part, const Submission& submission, const fs::path& folder) const {
     const std::string file = file_of(part);
     if (const auto missing = submission.missing.find(file); missing != submission.missing.end())

@@ -1,5 +1,4 @@
-// Builds a program around each part: the student's in a sandbox, ours from a cache. Declares the compiler, readable
-// compiler errors, and the builders.
+// Builds a program around each part: the student's in a sandbox, ours from a cache.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,3 @@
-// Creates the cases of a test: seeds, and the public cases of the hand-out.
 #include "mysim/base/hash.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/grade.h"

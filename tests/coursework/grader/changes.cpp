@@ -1,4 +1,3 @@
-// Changes of the inputs of a call, addressed by name.
 #include "tests/coursework/grader/changes.h"
 
 #include <algorithm>

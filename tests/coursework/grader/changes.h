@@ -1,4 +1,3 @@
-// A single change of the numbers of a call.
 #pragma once
 
 #include <optional>

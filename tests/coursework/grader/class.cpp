@@ -1,4 +1,3 @@
-// Grades a class in parallel, resumes an interrupted run, and counts results.
 #include "tests/coursework/grader/class.h"
 
 #include <fmt/format.h>
@@ -70,7 +69,6 @@ std::optional<Result> earlier_result(const fs::path& file, const Assignment& ass
   return {};
 }
 
-/// A field of CSV.
 std::string csv_of(const std::string& text) {
   const std::string safe = defused(text);
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);

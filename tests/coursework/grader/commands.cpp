@@ -1,4 +1,3 @@
-// The commands grade, assignment and list.
 #include "tests/coursework/grader/commands.h"
 
 #include <fmt/format.h>

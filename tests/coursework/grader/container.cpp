@@ -1,5 +1,3 @@
-// Runs a command on one CPU, without new namespaces; samples its memory twenty times a second, and kills all remaining
-// processes at the end.
 #include "tests/coursework/grader/container.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-// Parses grade.toml, and recognises the marks that systems and users add to names of copies (tables below).
 #include "tests/coursework/grader/copies.h"
 
 #include <iconv.h>
@@ -63,7 +62,6 @@ std::string unmarked(std::string stem) {
   return stem;
 }
 
-/// Names of the folders above the file.
 std::vector<std::string> folders_above(const std::string& path) {
   std::vector<std::string> names;
   std::size_t begin = 0;

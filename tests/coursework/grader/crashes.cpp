@@ -1,4 +1,3 @@
-// Parses the output of run-time checks, and resolves lines with addr2line.
 #include "tests/coursework/grader/crashes.h"
 
 #include <algorithm>

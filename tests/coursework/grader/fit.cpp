@@ -1,4 +1,3 @@
-// Least-squares fits with Eigen.
 #include "tests/coursework/grader/fit.h"
 
 #include <Eigen/QR>

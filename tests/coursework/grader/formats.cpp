@@ -1,4 +1,3 @@
-// The formats text, Gradescope, JUnit and Autolab, and their table.
 #include "tests/coursework/grader/formats.h"
 
 #include <fmt/format.h>

@@ -32,7 +32,6 @@ std::string text_or(const Texts& texts, const std::string& key, const std::strin
   return texts.has(key) ? texts.of(key) : otherwise;
 }
 
-/// State of one grading, shared by its steps.
 class Grading {
  public:
   Grading(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
@@ -80,7 +79,6 @@ class Grading {
   }
 
  private:
-  /// Lists every test of the assignment, with no points earned yet.
   void list_tests() {
     for (const bool hidden : {false, true})
       for (const Test& test : assignment_.tests) {

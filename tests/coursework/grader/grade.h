@@ -1,4 +1,3 @@
-// Grades a submission.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,3 @@
-// Writes the hand-out, with its README and CMakeLists.
 #include "tests/coursework/grader/handout.h"
 
 #include <fmt/format.h>

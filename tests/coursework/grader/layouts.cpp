@@ -1,4 +1,3 @@
-// File names as Moodle, Canvas and Gradescope create them, and folders with the work of several people.
 #include "tests/coursework/grader/layouts.h"
 
 #include <fmt/format.h>

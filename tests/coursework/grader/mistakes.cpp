@@ -1,4 +1,3 @@
-// Reads files of mistakes, and runs each mistake on the cases of a student's tests.
 #include "tests/coursework/grader/mistakes.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@ namespace fs = std::filesystem;
 using crosscheck::InputError;
 namespace {
 
-/// Lines of a file, with the current line number.
 class Lines {
  public:
   explicit Lines(const fs::path& file) : file_(file), in_(file) {

@@ -11,8 +11,7 @@
 
 namespace coursework {
 
-// Files of mistakes: mistakes.txt, novel.txt and double.txt of an assignment. A mistake is one replacement in a
-// solution.
+// Files of mistakes: mistakes.txt, novel.txt and double.txt of an assignment.
 
 /// Reads paragraphs `[name]`, `part: NAME`, `loses: IDS` (optional), then `<<<<`, the text, `====`, its replacement,
 /// `>>>>`. Throws InputError with file, line and the expected syntax.
@@ -25,8 +24,6 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const std::filesyste
 /// The source with the mistake applied. Throws InputError with the mistake's name unless the text to replace occurs
 /// exactly once.
 std::string with_mistake(const std::string& source, const Mistake& mistake);
-
-// Comparison of a student's answers with the answers of known mistakes.
 
 /// One test of a part: its calls, and the student's answers after the test's reduction.
 struct TestRun {

@@ -1,4 +1,3 @@
-// Repeats calls with modified inputs.
 #include "tests/coursework/grader/observe.h"
 
 #include <algorithm>

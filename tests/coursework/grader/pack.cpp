@@ -1,5 +1,3 @@
-// Collects sources by following their include lines, packs them with headers and scripts into a zip, and rehearses the
-// package from the zip to results.json.
 #include "tests/coursework/grader/pack.h"
 
 #include <archive.h>

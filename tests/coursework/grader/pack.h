@@ -10,8 +10,6 @@
 
 namespace coursework {
 
-// Zip files.
-
 /// Writes files by their path inside the archive. Files that begin with "#!" are executable. Throws std::runtime_error
 /// if the zip cannot be written.
 void write_zip(const std::filesystem::path& zip, const std::map<std::string, std::string>& files);

@@ -1,4 +1,3 @@
-// A loop over several threads.
 #pragma once
 
 #include <atomic>

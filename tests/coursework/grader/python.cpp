@@ -1,4 +1,3 @@
-// Writes the student's modules and the loader, imports each part once, and connects the two processes by pipes.
 #include "tests/coursework/grader/python.h"
 
 #include <fmt/format.h>

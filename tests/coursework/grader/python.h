@@ -18,7 +18,6 @@ constexpr double import_cpu = 10;
 /// True if the assignment's parts name Python functions.
 bool has_python(const Assignment& assignment);
 
-/// Names of the files of parts in Python.
 std::vector<std::string> python_files(const Assignment& assignment);
 
 /// The Debian package that is missing for grading Python here, or an empty string. The interpreter is /usr/bin/python3,

@@ -1,4 +1,4 @@
-// Writes results as JSON, text and page. The page escapes all text from the student.
+// The page escapes all text from the student.
 #include "tests/coursework/grader/result.h"
 
 #include <fmt/format.h>

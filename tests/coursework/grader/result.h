@@ -49,8 +49,6 @@ std::string_view status_of(const TestResult& test);
 std::string to_json(const Result& result, const std::string& fingerprint = "");
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
 
-// Results for people: plain text for the terminal, and a page.
-
 /// The result as plain text; `common` are the texts in check/common.LANGUAGE.txt.
 std::string text_of(const Result& result, const Texts& common);
 

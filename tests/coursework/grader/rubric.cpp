@@ -1,4 +1,4 @@
-// Reads a rubric, and divides the points of a test between its public and its hidden form.
+// Divides the points of a test between its public and its hidden form.
 #include "tests/coursework/grader/rubric.h"
 
 #include <fmt/format.h>

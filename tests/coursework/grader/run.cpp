@@ -1,4 +1,3 @@
-// Runs calls, and parses the output as untrusted text.
 #include "tests/coursework/grader/run.h"
 
 #include <fmt/format.h>

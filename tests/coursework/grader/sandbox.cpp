@@ -1,4 +1,3 @@
-// The three sandboxes (bubblewrap, another user, limits only), and their table.
 #include "tests/coursework/grader/sandbox.h"
 
 #include <fcntl.h>

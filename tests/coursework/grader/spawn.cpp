@@ -1,4 +1,3 @@
-// Starts a supervisor for a program, communicates through pipes, and interprets how the program ended.
 #include "tests/coursework/grader/spawn.h"
 
 #include <fcntl.h>

@@ -40,8 +40,6 @@ struct ChildStatus {
 /// program. After the program's end, kills its descendants and all processes of `user`.
 [[noreturn]] void supervise(const ChildSetup& setup);
 
-// Runs a program under limits. The sandboxes differ in their options.
-
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}

@@ -1,4 +1,3 @@
-// Temporary folders and users of a sandboxed run, and copies of its files.
 #include "tests/coursework/grader/staging.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,3 @@
-// Reads folders through the file system and archives through libarchive, and finds the wanted files.
 #include "tests/coursework/grader/submission.h"
 
 #include <archive.h>

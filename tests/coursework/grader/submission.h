@@ -125,7 +125,6 @@ std::string with_includes(const std::string& text,
                           const std::function<std::string(const std::string& name, bool in_brackets)>& lead);
 
 std::string lower(std::string text);
-/// The path component after the last slash.
 std::string base_name(const std::string& path);
 
 /// Number of folders below the top one, without src/.

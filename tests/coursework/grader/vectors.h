@@ -18,7 +18,6 @@ inline crosscheck::Vec3 random_vector(Random& random, double size) {
   return v;
 }
 
-/// A vector of length 1.
 inline crosscheck::Vec3 random_direction(Random& random) {
   if (random.rounds()) {
     crosscheck::Vec3 v(0.36, 0.48, 0.8);

@@ -34,10 +34,8 @@ struct Some {
 class Asker {
  public:
   virtual ~Asker() = default;
-  /// Initial state of the system.
   virtual State start() = 0;
   virtual void store(const State& state) = 0;
-  /// Entries of the stored state.
   virtual Some stored(const Indices& which) = 0;
   /// The next two functions evaluate evalF at `given`. some() returns a few entries, changed() all of them. `known` is
   /// an earlier result from which the entries differ in few places, or empty.
