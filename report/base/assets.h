@@ -1,4 +1,3 @@
-// Files of report/ that the program reads at run time.
 #pragma once
 
 #include <filesystem>

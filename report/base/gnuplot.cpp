@@ -19,7 +19,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Sets the creation date in a PDF's text to 1970. Returns false if the text contains no date.
+/// Returns false if the text contains no date.
 bool set_date(std::string& text) {
   const std::string key = "/CreationDate (D:", date = "19700101000000";
   const size_t at = text.find(key);
@@ -43,7 +43,8 @@ std::string packed(const std::string& text) {
   return bytes.substr(0, size);
 }
 
-/// Sets the date in the last object stream (PDF 1.7, 7.5.7 and 7.5.8), and updates its length and the offsets.
+/// Since version 1.18, cairo packs the date into the last object stream (PDF 1.7, 7.5.7 and 7.5.8). Updates its length
+/// and the later offsets.
 void set_packed_date(std::string& pdf) {
   static const std::regex tail(
       R"(\nendstream\nendobj\n(\d+) 0 obj\n +\d+\nendobj\n(\d+) 0 obj\n(<< /Type /XRef\n +/Length )\d+([^>]*)"

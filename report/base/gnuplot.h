@@ -7,13 +7,11 @@
 namespace crosscheck {
 
 /// Sets the creation date in a PDF written by cairo to 1970 (cairo ignores SOURCE_DATE_EPOCH), so that two runs write
-/// the same bytes. From version 1.18 on, cairo packs the date with other objects; the function repacks them and shifts
-/// the later offsets. Throws InputError if the file cannot be written.
+/// the same bytes. Throws InputError if the file cannot be written.
 void erase_pdf_date(const std::filesystem::path& pdf);
 
-/// Runs gnuplot, without user settings, on a script that must write `files` into `folder`. Returns its warnings, which
-/// are not failures. Throws std::runtime_error that begins with `what` if gnuplot fails or a file is missing, empty or
-/// truncated.
+/// Runs gnuplot, without user settings, on a script that must write `files` into `folder`. Returns its warnings. Throws
+/// std::runtime_error that begins with `what` if gnuplot fails or a file is missing, empty or truncated.
 std::string run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                         const std::vector<std::string>& files, const std::string& what);
 

@@ -24,13 +24,13 @@ std::string obj_bytes(const Points& x, const Shape& shape);
 /// Stanford PLY file (binary, little endian, double precision), in which the lines of the shape are elements `edge`.
 std::string ply_bytes(const Points& x, const Shape& shape);
 
-/// Mesh of a ball around the origin. Its vertices are a pole, 31 rings of 64 vertices, and the other pole. Triangles
-/// are counter-clockwise as seen from outside. The edges dip below the ball by 0.12 % of its radius.
+/// Mesh of a ball around the origin: a pole, 31 rings of 64 vertices, and the other pole. Triangles are
+/// counter-clockwise from outside. Edges dip below the ball by 0.12 % of its radius.
 std::pair<Points, Shape> ball_mesh(double radius);
 
 /// Writes FOLDER/frame-0001.obj (or .ply) and so on, beginning with the initial state; vertices are particles. Writes
-/// sphere-1.obj and so on for spheres at rest, and sphere-1-0001.obj and so on, one per frame, for moving spheres.
-/// Throws InputError if `form` is neither obj nor ply, or if a file cannot be written.
+/// sphere-1.obj for a sphere at rest, and sphere-1-0001.obj and so on (one per frame) for a moving sphere. Throws
+/// InputError if `form` is neither obj nor ply, or if a file cannot be written.
 class MeshWriter : public Observer {
  public:
   MeshWriter(std::filesystem::path folder, const Scene& scene, const std::string& form);

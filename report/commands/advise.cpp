@@ -18,8 +18,7 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// Size (m) of the true motion in the comparison window; without a truth, that of the scene's own run. Throws
-/// InputError.
+/// Size (m) of the true motion in the comparison window, or else of the scene's own run. Throws InputError.
 double motion_of_scene(const Scene& scene) {
   if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
   Recorder recorder;

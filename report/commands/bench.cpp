@@ -42,7 +42,7 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// Keeps only the last line of each shipped scene, and of these only the one on which mysim's kernel gains least.
+/// Considers only the last line of each shipped scene.
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)

@@ -25,7 +25,7 @@ struct BenchLine {
   std::string heading() const;
 };
 
-/// Returns one line per comparison, in the order of the rows. Of the shipped scenes, keeps only the one on which
+/// One line per comparison, in the order of the rows. Of the shipped scenes, keeps only the one on which
 /// mysim's kernel gains least. The figure shows kernels on the middle cloth only, and only the best run of each peer.
 std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows);
 

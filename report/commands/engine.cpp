@@ -38,7 +38,7 @@ bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<co
   return true;
 }
 
-/// Returns false if the program fails. In that case, prints the end of the program's output.
+/// If the program fails, prints the end of its output and returns false.
 bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
               const std::string& what) {
   const ProgramResult result = run_program(argv, folder);
@@ -55,7 +55,6 @@ void install(const std::string& program, const fs::path& as) {
                           fs::perms::others_exec);
 }
 
-/// Builds the adapter against the installation in --prefix.
 int build_adapter(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   const fs::path prefix = fs::canonical(options.prefix);
   if (!have_tools(options, {{"cmake", "cmake"}, {"ninja", "ninja-build"}, {"g++", "g++"}},

@@ -45,7 +45,7 @@ void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& text
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
-/// Announces the files of the points and of their results. A resumed sweep keeps its earlier results.
+/// A resumed sweep keeps its earlier results.
 void announce(ResumableOutput& folder, const PointList& plan, const Store& store, const ExperimentOptions& options) {
   const std::string points = store.folder().filename().string();
   std::vector<std::string> files{"plan.json"};

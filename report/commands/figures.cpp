@@ -174,7 +174,6 @@ class Problems {
   bool any_ = false;
 };
 
-/// The charts of these scenes that have a figure.
 std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& rows, const Provenance& lines,
                              bool of_each) {
   const AllFindings findings = all_findings(scenes, rows);

@@ -38,7 +38,6 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
   return "";
 }
 
-/// Grades, then compares the submitted steppers with other engines in charts that the page links to.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
   OutputFolder folder(charts, "report");

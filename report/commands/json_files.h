@@ -31,7 +31,6 @@ struct TestCase {
   std::string outcome = {};  // failure, error or skipped; empty: passed
   std::string message = {}, text = {};
 };
-/// JUnit XML in the form that CI systems read.
 std::string junit_xml(const std::string& suite, const std::vector<TestCase>& cases);
 
 }  // namespace crosscheck

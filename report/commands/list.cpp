@@ -72,7 +72,7 @@ int doctor_command() {
        sundials_version() ? "" : "; apt-get install libsundials-dev, then rebuild");
   line(CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display\n", "");
 
-  // an installation compiles only coursework and adapters
+  // installations compile only coursework and adapters
   const bool in_source_tree = std::filesystem::exists(data_folder() / "CMakeLists.txt");
   const Tool tools[] = {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},

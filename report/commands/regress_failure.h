@@ -1,4 +1,3 @@
-// Draws failed cases of a regression run.
 #pragma once
 
 #include <string>

@@ -239,7 +239,7 @@ struct ValidateOptions {
   bool json = false;
 };
 
-/// Prints each fault as a line on standard error. Returns 2 if there was one, otherwise 0.
+/// Prints faults on stderr. Returns 2 if there was one, otherwise 0.
 int validate_command(const ValidateOptions& options) {
   int status = 0;
   Json entries = Json::array();

@@ -88,7 +88,6 @@ std::string colour_name(const std::string& colour) {
   return found == std::end(named) ? colour : found->second;
 }
 
-/// Adds gnuplot's point type by name.
 void add_mark(Json& json, int marker) {
   constexpr const char* names[] = {"plus",     "cross", "star",    "square",  "circle",
                                    "triangle", "down",  "diamond", "pentagon"};

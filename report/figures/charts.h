@@ -32,7 +32,6 @@ struct ChartInput {
   bool all = true;  // false: only selected scenes have charts of their own
 };
 
-/// A small table on the page.
 struct PageTable {
   std::string caption;
   std::vector<std::string> header;
@@ -49,8 +48,7 @@ struct Snapshot {
   Scene scene;
   std::vector<Panel> panels;
   Shot shot;
-  /// Times (s) with captions. If there are any, each gets a picture in a file of its own, and the shot's time is
-  /// unused.
+  /// Times (s) with captions. Each gets a picture file of its own; the shot's time is then unused.
   std::vector<std::pair<double, std::string>> moments = {};
 };
 
@@ -75,11 +73,11 @@ struct Chart {
 
 using fmt::literals::operator""_a;
 
-/// A figure's text for `word` with its values inserted; empty if the figure has no such text.
+/// A figure's text for `word` with its values inserted, or an empty string.
 std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values = {});
 Chart described_chart(const std::string& key, AnyFigure figure, fmt::format_args values);
 /// Chart of a figure. Texts from texts.md replace the figure's own. A figure with neither curves nor failures is
-/// dropped. If the chart has no text, the caption of the dropped figure becomes the chart's text.
+/// dropped; its caption becomes the chart's text if there is no other.
 template <class... Values>
 Chart described(const std::string& key, AnyFigure figure, const Values&... values) {
   return described_chart(key, std::move(figure), fmt::make_format_args(values...));
@@ -100,14 +98,14 @@ std::vector<T> distinct(const std::vector<Row>& rows, T Row::*member) {
   return all;
 }
 
-/// The common part of the chart's figure, or null if the chart has no figure.
+/// Null if the chart has no figure.
 const FigureInfo* figure_info(const Chart& chart);
-/// Writes and draws the chart's figure, as draw() does. Does nothing if the chart has no figure.
+/// Like draw(). Does nothing if the chart has no figure.
 void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// Writes the data and the script of the chart's figure: NAME.csv and NAME.gp.
 void write_figure_data(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
-/// The method with which a title begins; empty if the title does not begin with a method.
+/// The method with which a title begins, or an empty string.
 std::string method_in(const std::string& title);
 std::vector<std::string> methods_in(const Chart& chart);
 

@@ -88,8 +88,7 @@ void CurvePlot::fill_board() {
       board_->add_line(place(g.at, y_low_), {place(g.at, y_low_).x, box_.top});
 }
 
-/// Places a label where it covers nothing and is nearer to its own curve than to others: at the end of the curve, along
-/// the curve, or next to one of the crosses.
+/// Places a label nearer to its own curve than to others: at the end of the curve, along it, or next to a cross.
 bool CurvePlot::place_beside(const std::string& words, const std::string& colour,
                              const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
                              const std::vector<std::vector<Place>>& others) {
@@ -189,7 +188,7 @@ bool CurvePlot::place_names() {
   return true;
 }
 
-/// Places names to the right of the plot, at the heights where their curves end. Moves apart names that would overlap.
+/// Places names to the right of the plot, at the heights of their curves' ends. Moves overlapping names apart.
 void CurvePlot::column_of_names() {
   struct Entry {
     size_t part;
@@ -227,7 +226,7 @@ void CurvePlot::column_of_names() {
   }
 }
 
-/// Places labels of straight lines and guides where they cover nothing.
+/// Places labels of straight lines and guides.
 void CurvePlot::place_lines() {
   const auto beside = [&](double y, const std::string& words, const MethodStyle& style, bool in_key) {
     if (y < box_.bottom || y > box_.top) return;

@@ -1,4 +1,3 @@
-// Layout of a figure of curves.
 #pragma once
 
 #include <cmath>
@@ -41,8 +40,7 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts);
 bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part);
 
 std::string kind_of(const FailureMark& mark);
-/// Meanings of the marks that no named curve explains (failures, scaled times, low values), and their gnuplot point
-/// types.
+/// Meanings, and gnuplot point types, of the marks that no named curve explains (failures, scaled times, low values).
 std::vector<std::pair<std::string, int>> mark_meanings(const Figure& f, double y_floor);
 
 /// Lays out a figure for paper and writes its script. Keeps a reference to the figure.
@@ -91,9 +89,8 @@ class CurvePlot {
   /// True if the name is short enough for a label; longer names are in the key.
   bool is_short(const NamedCurves& part) const { return width_of(part.name) < 0.45 * wide_; }
 
-  /// Position of a marker that identifies an entry's crosses without relying on colour: to the left of the crosses, or
-  /// to their right if the frame is near. Returns nullopt if only one entry has failures, or if the entry has no
-  /// marker.
+  /// Position of a marker that identifies an entry's crosses without relying on colour: left of the crosses, or right
+  /// of them near the frame. Returns nullopt if only one entry has failures or the entry has no marker.
   std::optional<Place> sign_of(const NamedCurves& part, size_t row) const;
   void assign_rows();
   void frame(double right_column);

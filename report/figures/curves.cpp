@@ -163,7 +163,6 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
   if (f.x.high) range.x_high = *f.x.high;
   range.y_low = low, range.y_high = high;
   padded(range.y_low, range.y_high, f.y.logarithmic, 0.04);
-  // limit the axis to the data and to the figure's limits
   if (f.y.low && (!f.y.logarithmic || range.y_low < *f.y.low)) range.y_low = *f.y.low;
   if (f.y.high && (!f.y.logarithmic || range.y_high > *f.y.high)) range.y_high = *f.y.high;
   if (std::isfinite(range.y_floor)) range.y_low = range.y_floor;
@@ -188,7 +187,7 @@ std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) con
   return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
 }
 
-/// Assigns the crosses to rows from the top; each row takes as many crosses as fit.
+/// Fills the rows of crosses from the top.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;

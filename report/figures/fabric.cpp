@@ -30,8 +30,8 @@ double order_at_end(const Curve& curve) {
   return std::log(before / after) / std::log(fine / coarse);
 }
 
-/// True for the loads that are drawn: the lightest, middle and heaviest weight, and the largest load at the tip. Curves
-/// of other loads would coincide with these.
+/// True for the lightest, middle and heaviest weight, and the largest load at the tip. Curves of other loads would
+/// coincide with these.
 bool is_drawn(const CantileverRow& row) {
   return row.tip_load > 0 ? row.tip_load == 5 : row.gamma == 0.1 || row.gamma == 5 || row.gamma == 50;
 }

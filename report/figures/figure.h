@@ -1,4 +1,3 @@
-// Figures, drawn by gnuplot: NAME.csv and NAME.gp, and from them NAME.svg, NAME.pdf and NAME.png.
 #pragma once
 
 #include <filesystem>
@@ -39,7 +38,6 @@ struct Curve {
   std::string method = {};             // the method whose colour the page uses if the title names no method
 };
 
-/// A failed run, drawn as a cross.
 struct FailureMark {
   std::string title;
   MethodStyle style;
@@ -83,7 +81,6 @@ struct Guide {
   std::string text;
 };
 
-/// Elements that only the page shows.
 struct OnPage {
   struct Take {
     double x = 0, y = 0;
@@ -106,13 +103,14 @@ struct Figure : FigureInfo {
   OnPage on_page = {};
 };
 
-/// Data, and a script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
+/// Data for NAME.csv, and a gnuplot script NAME.gp that draws NAME.svg, NAME.pdf and NAME.png from it.
 struct Drawing {
   std::string name;
   Table data;
   std::string script;
 };
-/// Throws std::runtime_error with the figure's name if there is nothing to draw or a number is not finite.
+/// Each drawing_of() throws std::runtime_error with the figure's name if there is nothing to draw, a number is not
+/// finite, or a value on the logarithmic axis of a dot plot or heat map is not above zero.
 Drawing drawing_of(const Figure& figure);
 
 /// Writes and draws a figure; also writes style.gp. Prints gnuplot's warnings to stderr. Throws std::runtime_error with
@@ -138,7 +136,6 @@ struct StackedBars : FigureInfo {
   std::vector<Part> parts;  // stacked from zero outwards
 };
 
-/// Throws std::runtime_error with the figure's name if there is nothing to draw or a number is not finite.
 Drawing drawing_of(const StackedBars& bars);
 
 // Dots with intervals over a logarithmic axis: one line per name, one marker per series.
@@ -160,7 +157,6 @@ struct DotPlot : FigureInfo {
   std::string right_of_one = {};  // meaning of values above 1
 };
 
-/// Throws std::runtime_error with the figure's name if there is nothing to draw or a value is not above zero.
 Drawing drawing_of(const DotPlot& dots);
 
 // Heat maps: outcomes of runs over two logarithmic axes, in panels that share the axes, with limits as lines.
@@ -188,7 +184,6 @@ struct HeatMap : FigureInfo {
   std::vector<Panel> panels;
 };
 
-/// Throws std::runtime_error with the figure's name if there is nothing to draw or a value is not above zero.
 Drawing drawing_of(const HeatMap& map);
 
 }  // namespace crosscheck

@@ -19,7 +19,7 @@ FigureSize figure_size(const std::string& set, const std::string& width);
 /// Escapes special characters for LaTeX. Greek letters and symbols become mathematics.
 std::string latex(const std::string& text);
 
-/// Sets the size of the chart's figure. Returns false if the chart has no figure.
+/// Returns false if the chart has no figure.
 bool resize(Chart& chart, const FigureSize& size);
 
 /// Writes the caption as text (NAME.txt) and as a LaTeX figure environment (NAME.tex).
@@ -42,8 +42,7 @@ void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& 
 
 std::string picture_name(const Scene& scene);
 
-/// Shot for a figure of this width at 300 pixels per inch (less for figures wider than 30 cm), with the figure's font
-/// size on paper.
+/// Shot for a figure of this width: its resolution is pixels_per_inch(), and its letters have the figure's font size.
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
 
 FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult*>& answers, const FigureSize& size,

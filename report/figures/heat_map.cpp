@@ -98,7 +98,6 @@ std::string panel_plot(const HeatMap& map, const HeatMap::Panel& p) {
   return joined_plot(parts);
 }
 
-/// Key entries of the kinds of cells that occur, and of the limits.
 std::vector<KeyEntry> key_of(const HeatMap& map) {
   std::vector<KeyEntry> key;
   const auto any = [&](auto has) { return std::ranges::any_of(map.panels, has); };

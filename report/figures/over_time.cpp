@@ -11,7 +11,6 @@
 namespace crosscheck {
 namespace {
 
-/// Charts of one scene from its table of samples.
 using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
                                     const Table& table);
 

@@ -13,7 +13,6 @@ namespace crosscheck {
 
 inline constexpr double letter_height = 12, line_of_text = 15;
 
-/// Width of a text in layout units.
 double width_of(const std::string& text);
 
 /// "0.001", "2·10⁻⁷"
@@ -73,7 +72,7 @@ struct KeyEntry {
   MethodStyle style;
   std::string fill = "solid";  // for a box
 };
-/// Height of the key. Its entries wrap into lines.
+/// Entries wrap into lines.
 double key_height(const std::vector<KeyEntry>& entries, double wide);
 std::string key_commands(const Sheet& sheet, const std::vector<KeyEntry>& entries, Place top_left, double wide);
 

@@ -122,7 +122,7 @@ void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInp
   }
 }
 
-/// Returns the methods on the front, from the cheapest run to the most accurate.
+/// The methods on the front, from the cheapest run to the most accurate.
 template <Cost kind>
 std::vector<std::string> add_front(Figure& f, const SceneRuns& s, const ChartInput& input) {
   std::vector<std::string> methods;

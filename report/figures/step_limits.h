@@ -45,7 +45,6 @@ StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string&
 std::string measured_text(const LimitRow& row);
 std::string predicted_text(const LimitRow& row);
 
-/// Throws std::runtime_error with the figure's name if there is nothing to draw.
 Drawing drawing_of(const StepLimits& limits);
 
 }  // namespace crosscheck

@@ -138,7 +138,7 @@ Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& 
   for (const PulledSheetRow& row : rows) {
     if (f.curves.empty() || f.curves.back().title != row.net + ", measured") {
       MethodStyle plain = by_iterations[style];
-      plain.marker = -1;  // no marker, because markers are for measurements
+      plain.marker = -1;
       f.curves.push_back({row.net, plain, {}});
       f.curves.push_back({row.net + ", measured", by_iterations[style], {}, false, true});
       style = std::min(style + 1, std::size(by_iterations) - 1);

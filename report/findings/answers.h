@@ -19,7 +19,6 @@ const std::vector<Question>& questions();
 
 /// The answer to a question, or null if the tables contain none.
 const Finding* answer_to(const Question& question, const Findings& findings);
-/// Joined answers to the questions of a chapter.
 std::string answers_of_chapter(std::string_view chapter, const Findings& findings);
 
 }  // namespace crosscheck

@@ -25,10 +25,10 @@ struct EngineBeside {
 struct RecommendedRun {
   std::string method;
   SettingKind setting = SettingKind::step;
-  double requested = 0;              // step (s) or tolerance
-  double error = 0, motion = 0;      // m
-  double error_bar = 0;              // m
-  std::string tier;                  // tier of the truth
+  double requested = 0;          // step (s) or tolerance
+  double error = 0, motion = 0;  // m
+  double error_bar = 0;          // m
+  std::string tier;
   long evaluations = 0;              // force evaluations: the cost that is minimised
   double cost = 0;                   // CPU time, s
   bool timed_whole = true;           // false: the CPU time is scaled from a part of the run
@@ -38,8 +38,7 @@ struct RecommendedRun {
 };
 
 /// The run that recommend() chooses, with an error of at most this fraction of the motion (usually 0.01; other
-/// fractions use only the steps that were measured for all methods). Returns nullopt if there is no such run, no truth,
-/// or no timing.
+/// fractions use only steps measured for all methods). Returns nullopt without such a run, truth or timing.
 std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows);
 
 /// "step 2 ms", or "tolerance 1.0e-6".

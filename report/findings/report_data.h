@@ -18,8 +18,7 @@ namespace crosscheck {
 std::string failure_class(std::string_view verdict);
 inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
 
-/// One method's results on a scene. Error, difference and clearance are the largest values within the comparison
-/// window.
+/// Error, difference and clearance are the largest values within the comparison window.
 struct MethodData : EngineRow {
   std::optional<double> energy_error = {};  // relative
   bool supported() const { return verdict != Verdict::unsupported; }
@@ -28,7 +27,6 @@ struct MethodData : EngineRow {
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// True if the run completed, is not a truth, and has a known error.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
-  /// The kind of failure in words.
   std::string failure() const { return failure_class(verdict); }
 };
 
@@ -36,7 +34,7 @@ struct SceneData {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
   double measured_window = 0;                 // s; after this time, a perturbation of 1e-10 m has grown a thousandfold
-  std::string tier;                           // tier of the truth; empty: no truth
+  std::string tier;                           // empty: no truth
   double error_bar = 0;                       // m
   std::string truth;                          // derivation of the truth in one sentence
   std::optional<double> truth_until;          // s, if the truth ends early
@@ -58,7 +56,6 @@ inline constexpr double useless_from = 0.1;
 /// Reads the tables `engines`, `engines-cost` and `engines-energy`.
 SceneData scene_data(const std::string& scene, const TableSet& result);
 
-/// True if the method chooses its own steps.
 bool is_adaptive(const std::string& method);
 
 /// Number for sentences: "3.2e-5" instead of "3.2e-05"; without an exponent where that is short.

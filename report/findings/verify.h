@@ -20,8 +20,7 @@ struct Verification {
 
 /// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, recomputes every finding, and compares sentence,
 /// tier, value, interval, and fingerprints of rows with report.json. Rows without a finding are covered by the
-/// fingerprint of their table. Throws InputError if a file is missing or unreadable, or if the report has another
-/// format.
+/// fingerprint of their table. Throws InputError if a file is missing or unreadable, or has another format.
 Verification verify_report(const std::filesystem::path& folder);
 
 struct Change {

@@ -57,7 +57,7 @@ void LiveRun::start(const Settings& settings) {
 
 void LiveRun::begin() {
   loop_.reset(), world_.reset(), observers_.reset(), ledger_.reset(), monitor_.reset();
-  // bounds on the true motion always cover the scene's own duration, even if the run is shorter or longer
+  // bounds cover the scene's own duration, even if the run is shorter or longer
   const auto bounds = [this](const Scene& scene, const Run&) { return bounds_(scene, default_run(scene)); };
   monitor_ = std::make_unique<DivergenceMonitor>(scene_, run_, bounds);
   std::vector<Observer*> others;

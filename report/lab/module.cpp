@@ -90,7 +90,7 @@ std::vector<Number> of_each(const List& list, const Member& member) {
 
 }  // namespace
 
-/// Returns a buffer of this size (bytes), into which the page writes the text of the next call.
+/// Buffer of this size (bytes) for the text of the next call.
 EXPORT(text_buffer) char* text_buffer(int bytes) {
   instance().text.assign(static_cast<size_t>(bytes), ' ');
   return instance().text.data();

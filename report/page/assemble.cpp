@@ -157,7 +157,7 @@ class Assembly {
                report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
     std::vector<std::pair<std::string, size_t>> blocks;
     write_file(folder_ / "index.html", page_html(page_, &blocks));
-    bool agree = true;  // true if all engines with the same rule agree
+    bool agree = true;
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
     return {std::move(page_), std::move(blocks), agree};
@@ -193,7 +193,6 @@ class Assembly {
     return images;
   }
 
-  /// Draws missing pictures, and figures that open a chapter (for paper, and for readers without scripts).
   void draw(const Workers& workers) {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
@@ -249,8 +248,7 @@ class Assembly {
     }
     const std::vector<PageImage> images = images_of(s);
     if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
-    // all moments share one camera: it fits the first moment, at which the run has not yet diverged, and is moved back
-    // slightly
+    // all moments share a camera, which fits the first one (the run has not yet diverged) and is moved back slightly
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, shots.front());
@@ -304,7 +302,7 @@ class Assembly {
   void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
     const std::string marks = part.scene->name + "-speed-accuracy";
-    if (part.take) add_runs(marks, part.take->method);  // adds nothing if a chart has added these runs
+    if (part.take) add_runs(marks, part.take->method);
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
       const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
       return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();

@@ -85,7 +85,7 @@ struct Folded {
   Chapter::Entry entry;
 };
 
-/// The folded entries, most important first.
+/// Most important entries first.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
   for (const Chapter::Entry& given : chapter.entries) {

@@ -18,8 +18,7 @@ inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 li
 bool has_lab_module();
 std::filesystem::path lab_module_file();
 
-/// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty if there is no
-/// module.
+/// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty without a module.
 Json lab_data(const std::vector<Scene>& scenes);
 
 /// A page that contains only the lab. Throws InputError, which lists the packages to install, if there is no module.

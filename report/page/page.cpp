@@ -55,7 +55,7 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// The changes since an earlier report; null if none is given.
+/// Null without an earlier report.
 Json changes_data(const PageContent& c) {
   if (c.against.empty()) return nullptr;
   int timed = 0;
@@ -151,7 +151,6 @@ Json scripts_data(const PageContent& c, const Folds& folds) {
   return all;
 }
 
-/// Sizes of the page's blocks in bytes.
 std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const std::string& html) {
   std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
   const auto count = [&](const std::string& block, size_t bytes) {

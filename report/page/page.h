@@ -61,7 +61,6 @@ struct ScenePart {
   std::vector<ShownRun> runs = {};     // runs in the small table of the scene's card
 };
 
-/// A chapter answers a question.
 struct Chapter {
   struct Entry {
     std::string part;  // id of the chapter to which the chart belongs, if this chapter joins several
@@ -100,14 +99,14 @@ struct PageContent {
   Json charts = Json::object();  // contents of the charts by figure name (report/figures/chart_json.h)
   std::vector<std::string> methods;
   std::vector<RelationRow> relations;
-  std::vector<PlayableRuns> runs;  // runs that the figures can play
-  Json lab = Json::array();        // the module and its scenes, for the end of the page (data.html)
+  std::vector<PlayableRuns> runs;
+  Json lab = Json::array();  // the module and its scenes, for the end of the page (data.html)
   std::string main_scene;
   std::filesystem::path figures;      // folder of the figures for paper
   std::vector<std::string> notes;     // omissions, with reasons
   std::vector<std::string> problems;  // failures
   std::string against;
-  std::vector<Change> changes;  // changes since the report `against`
+  std::vector<Change> changes;  // since the report `against`
   Provenance provenance;
 };
 
@@ -118,8 +117,8 @@ std::vector<const ScenePart*> first_scenes(const PageContent& content);
 /// True if a figure opens a chapter; such figures are also drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
-/// Returns the whole page; `blocks` receives the sizes of its blocks in bytes. Throws std::runtime_error if an image or
-/// motion cannot be read.
+/// `blocks` receives the sizes of the page's blocks in bytes. Throws std::runtime_error if an image or motion is
+/// unreadable.
 std::string page_html(const PageContent& content, std::vector<std::pair<std::string, size_t>>* blocks = nullptr);
 
 /// Style sheet and script of the page. `bundle` is "app", or "lab_page" for a page with only the lab. Throws
@@ -149,8 +148,7 @@ bool has_contents(const Chapter& chapter);
 std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
                                 const Provenance& lines);
 
-/// Returns the data of a report: format number; findings with formula, rows and fingerprints; scenes; tables with
-/// fingerprints; figures, notes and problems; index of runs.
+/// Contents of report.json (report/CONTRACT.md).
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
                         const TableSet& result, std::string_view extent, const Json& runs = Json::array());
 

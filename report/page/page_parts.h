@@ -1,4 +1,4 @@
-// Data for the templates in report/page/templates/.
+// Data for the templates in report/page/templates/. For most functions NAME_data(), the template is NAME.html.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -26,12 +26,10 @@ class Folds {
 
 /// Data of image.html and picture.html, with the embedded image. Throws std::runtime_error if the image cannot be read.
 Json image_data(const PageImage& image);
-/// Data of figure.html.
 Json figure_data(const PageFigure& figure, const PageContent& page);
-/// Data of table.html; omits empty columns.
+/// Omits empty columns.
 Json table_data(const PageTable& table);
 Json findings_data(const Findings& findings);
-/// Data of provenance.html.
 Json provenance_data(const Provenance& lines);
 
 /// Data for scripts, as an element in data.html. Its bytes count towards the size of `block`.
@@ -50,18 +48,16 @@ Json chapters_data(const PageContent& content, Folds& folds);
 /// Figures that are visible without opening a fold.
 std::vector<std::string> figures_in_sight(const PageContent& content);
 
-/// Data of table.html for three tables: all runs of a scene; means and deviations over perturbed runs; and the
-/// recommendation for each scene.
+/// Tables (table.html): all runs of a scene, means and deviations over perturbed runs, recommendations by scene.
 Json run_table_data(const ScenePart& part);
 Json statistics_data(const Table& statistics);
 Json recommendations_data(const std::vector<ScenePart>& scenes);
 /// Data of table.html: one row per built-in method.
 Json methods_data(const std::vector<std::string>& shown);
-/// Data of certificate.html.
 Json certificate_data(const Certificate& certificate);
-/// Data of parity.html: all certificates, with a dot per quantity and scene. Null if there are no certificates.
+/// All certificates, with a dot per quantity and scene. Null if there are none.
 Json parity_data(const std::vector<ScenePart>& scenes);
-/// Data of relations.html; null if there are no rows.
+/// Null if there are no rows.
 Json relations_data(const std::vector<RelationRow>& rows);
 
 Json glossary_data();

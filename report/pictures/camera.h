@@ -27,7 +27,7 @@ struct Frame {
 /// Frame of a view. Throws std::runtime_error if the view is not finite or the eye is at the target.
 Frame frame_of(const View& view, double aspect);
 
-/// Matrix whose rows are the axes: horizontally to the right, up, and horizontally towards the eye.
+/// Axes of the frame (Frame::axes) for a direction towards the eye.
 Eigen::Matrix3d upright_axes(const Vec3& towards_eye);
 
 /// Direction towards the centre of the key light: steep, from the left behind the viewer.

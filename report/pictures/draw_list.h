@@ -10,8 +10,7 @@
 
 namespace crosscheck::render {
 
-/// Corner of a cloth triangle. `rim`: distances to the three edges in half widths of a thread; large for an edge
-/// without a thread.
+/// `rim`: distances to the three edges in half widths of a thread; large for an edge without a thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
   float value;  // position on the scale, 0..1

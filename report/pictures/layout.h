@@ -13,8 +13,7 @@ double text_width(const std::string& text, bool bold);
 
 inline constexpr double line_height = 1.25;  // in units of the font size
 
-/// Breaks lines wider than `room` (in units of the font size) after a slash, after a comma with its space, or before a
-/// plus.
+/// Breaks lines wider than `room` (in units of the font size) after a slash or a comma and its space, or before a plus.
 std::string wrapped(const std::string& text, bool bold, double room);
 
 struct Layout {
@@ -37,8 +36,7 @@ bool is_strip(const std::vector<Panel>& row);
 /// Width of an entry with its swatch and gap, in units of the font size.
 double legend_entry_width(const std::string& name);
 
-/// Lays out a picture. Throws std::runtime_error if the picture has no panels, and InputError if it is too small for
-/// them.
+/// Throws std::runtime_error if the picture has no panels, and InputError if it is too small for them.
 Layout layout_of(const Picture& picture);
 
 }  // namespace crosscheck::render

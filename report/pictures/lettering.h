@@ -7,7 +7,6 @@
 
 namespace crosscheck::render {
 
-/// Draws the picture's text on the image.
 Image lettered(const Picture& picture, const Layout& layout, const Image& image);
 
 /// A PDF page with the image and selectable text.

@@ -86,8 +86,8 @@ std::vector<Family> families_of(const Scene& scene) {
   return present;
 }
 
-/// Bodies that show the springs, one per family: thick tubes for structural springs, thin ones for shear and bend
-/// springs. Bend springs coincide with structural ones, and are shifted towards the eye to be visible.
+/// One body per family of springs: thick tubes for structural springs, thin ones for shear and bend springs. Bend
+/// springs coincide with structural ones, and are shifted towards the eye to be visible.
 std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
   const auto& springs = scene.model.find<Springs>()->list;
   double spacing = 1e300;

@@ -1,4 +1,3 @@
-// Pictures of scenes and results.
 #pragma once
 
 #include <string>

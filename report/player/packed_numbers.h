@@ -13,8 +13,7 @@ namespace crosscheck {
 /// std::runtime_error if zlib fails.
 std::string pack(std::vector<std::uint16_t> numbers, size_t columns);
 
-/// Reverses pack(). Throws std::runtime_error unless the bytes are one gzip member that contains exactly `count`
-/// numbers.
+/// Reverses pack(). Throws std::runtime_error unless the bytes are one gzip member with exactly `count` numbers.
 std::vector<std::uint16_t> unpack(std::string_view bytes, size_t count, size_t columns);
 
 /// Compresses to gzip. Throws std::runtime_error if zlib fails.

@@ -16,10 +16,7 @@ export function svgOf({tag, attributes, children}: Element): SVGElement {
   return made;
 }
 
-/**
- * Left and right arrows move between marks, up and down between curves. The tooltip describes the mark; Enter plays its
- * run.
- */
+/** Left and right arrows move between marks, up and down between curves. Enter plays the mark's run. */
 function walk(event: KeyboardEvent) {
   const step = ({ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1} as Record<string, number>)[event.key];
   const box = event.currentTarget;

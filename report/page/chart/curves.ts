@@ -244,7 +244,6 @@ class CurvesLayout {
       this.unplaced.push({text, sample});
   }
 
-  /** Rings and labels the recommended run. */
   private drawTake() {
     const {take, parts} = this.chart;
     if (!take) return;

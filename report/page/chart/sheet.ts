@@ -43,9 +43,7 @@ export interface Sheet {
 
 export const letters = 12.5, lineHeight = 15;  // px
 
-/**
- * Widths of characters from blank to tilde in Helvetica, Arial and Liberation Sans, in thousandths of the font size.
- */
+/** Widths of characters from blank to tilde in Helvetica, Arial and Liberation Sans, in 1/1000 of the font size. */
 const advances =
     ('278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 556 556 556 556 556 556 556 556 556 ' +
      '556 278 278 584 584 584 556 1015 667 667 722 722 667 611 778 722 278 500 667 556 833 722 778 667 778 ' +

@@ -23,8 +23,7 @@ function textOfCell(toml: string, kind: string, value: number, step: number) {
             lines[line].slice(end);
     text = lines.join('\n');
   }
-  // choose the duration so that the number of steps per sampling interval is an integer; otherwise the step would be
-  // shortened
+  // the sampling interval must contain an integer number of steps; otherwise the step would be shortened
   const samples = numberAt(text, 'time.samples'), interval = numberAt(text, 'time.duration') / samples;
   const duration = samples * Math.max(1, Math.ceil(interval / step)) * step;
   return withNumbers(text, {'time.duration': duration, 'time.step': step});

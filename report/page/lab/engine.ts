@@ -186,7 +186,7 @@ export class Simulation {
     };
   }
 
-  /** Calls a function of the module. An exception ends the instance. */
+  /** An exception ends the instance. */
   call(name: string, ...values: number[]): number {
     if (this.broken) throw new LabError('fault', 'the run has ended');
     try {

@@ -1,5 +1,5 @@
-// Guided experiments. Each step has states of the lab, a condition of completion, and numbers for the explanation,
-// which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
+// Guided experiments. Each step has states of the lab, a condition of completion, and numbers for the explanation.
+// Texts are in words/ under EXPERIMENT.STEP.*.
 
 import {Places} from '../player/vectors';
 

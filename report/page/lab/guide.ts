@@ -1,5 +1,5 @@
 // <lab-guide>: guided experiments in a <live-lab>. Each step asks for a guess, lets the reader perform the task in the
-// lab, notices its completion, and explains the result. Steps can be skipped, repeated or left.
+// lab, notices its completion, and explains the result.
 
 import {make} from '../player/controls';
 import {stillWanted} from '../player/player';
@@ -109,7 +109,6 @@ const guideButton = (key: string, words: string, act: () => void, attributes: Re
   return button;
 };
 
-/** Question, task or explanation. */
 type Phase = 'ask'|'try'|'why';
 
 class LabGuide extends HTMLElement {

@@ -129,7 +129,7 @@ class Slider {
   }
 }
 
-/** Sliders for a scene's own numbers; the first few are visible, and the others are folded. */
+/** Sliders for a scene's own numbers. */
 export class SceneKnobs {
   readonly box: HTMLElement = make('div', {class: 'knobs'});
   private knobs: {row: KnobRow, slider: Slider}[] = [];

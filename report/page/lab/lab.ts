@@ -1,7 +1,6 @@
 // <live-lab>: mysim in the page, next to the truth. Nothing is laid out, compiled or computed before the lab is opened
 // by its button, an address, or openLab(). With data-part="step", it shows only the picture and the step's slider, and
-// opens when it becomes visible. Its state consists of a scene's text (TOML), one or two methods with a step or
-// tolerance each, and a look. Sliders change numbers in the text, and then the runs restart.
+// opens when it becomes visible. Sliders change numbers in the scene's text (TOML), and then the runs restart.
 
 import {make, short} from '../player/controls';
 import {dark, startsWebGl, stillWanted} from '../player/player';
@@ -20,7 +19,7 @@ import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} fr
 import {labLanguage, questionInLanguage, say} from './words';
 
 const longestFrame = 120;  // ms; longer frames count as this long
-const pauseAtEnd = 1200;   // ms, pause before a looping run restarts
+const pauseAtEnd = 1200;   // ms, before a looping run restarts
 
 export class LiveLab extends LabPicture {
   link = '';                                             // last copied link
@@ -114,10 +113,7 @@ export class LiveLab extends LabPicture {
   }
 
 
-  /**
-   * Sets the given fields: a scene with its shipped text and method, a text or changed numbers, methods, a look.
-   * Resolves when the state is displayed.
-   */
+  /** Sets the given fields, such as a scene with its shipped text and method. Resolves when the state is displayed. */
   async setState(state: LabState): Promise<void> {
     if (!this.view) return this.open({scene: this.dataset.scene, ...state});
     const {scene, toml, changes, methods, speed, running} = state, other = scene !== undefined;

@@ -155,7 +155,7 @@ export abstract class LabPicture extends LabRuns {
       if (change[name] !== undefined) Object.assign(this.look, {[name]: change[name]});
   }
 
-  /** Draws the present state. Returns true while the camera moves. */
+  /** Returns true while the camera moves. */
   draw(): boolean {
     const {stage, view, orbit, look} = this;
     if (!stage || !view || !orbit || !this.drawn.length) return false;

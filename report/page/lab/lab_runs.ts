@@ -62,7 +62,7 @@ export abstract class LabRuns extends HTMLElement {
 
   protected observes(scene: EngineScene) { return scene.particles <= smallScene; }
 
-  /** Opens the scene for every method and restarts. If it is invalid, displays the reason and returns false. */
+  /** Opens the scene for every method. If the scene is invalid, displays the reason and returns false. */
   load(fresh = false) {
     const opened: LiveRun[] = [];
     try {
@@ -89,7 +89,7 @@ export abstract class LabRuns extends HTMLElement {
     return true;
   }
 
-  /** The method in the scene's text, if it belongs to mysim. */
+  /** mysim's method in the scene's text, or else leapfrog. */
   private ownMethod(): MethodSpec {
     const name = textAt(this.toml, 'method').replace(/^mysim\//, '');
     return {method: this.lab.stepperOf(name) ? name : 'leapfrog', step: numberAt(this.toml, 'time.step')};
@@ -132,10 +132,7 @@ export abstract class LabRuns extends HTMLElement {
     this.late = this.slow = 0, this.pace = 1, this.pending = false;
   }
 
-  /**
-   * Advances time. Runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: time at full
-   * speed.
-   */
+  /** Runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: time at full speed. */
   advance(passed: number, wanted = passed) {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;

@@ -315,7 +315,6 @@ export class Truth {
 
   get known() { return this.followers.length > 0; }
   get places() { return this.followers[0].out; }
-  /** True if the truth has any positions. */
   get begun() { return this.followers[0].spent > 0; }
 
   /** Error and error bar (m) of positions; null if the truth is not available within `budget` ms. */

@@ -1,5 +1,4 @@
-// Draws the current positions of runs, overlaid or side by side, with the held particle, its path, and the growing
-// mode.
+// Draws the current positions of runs, overlaid or side by side.
 
 import {boundsOf} from '../player/bounds';
 import {rgb} from '../player/colours';
@@ -102,7 +101,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.arrows = this.tools.table(2 * scene.particles);
   }
 
-  /** Sets the true path, which is drawn from the start. If it is empty, no path is drawn. */
+  /** Sets the true path, which is drawn from the start. An empty path is not drawn. */
   setCourse(points: Vec3[]) {
     const {course} = this;
     course.count = Math.max(0, points.length - 1);

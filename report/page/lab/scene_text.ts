@@ -136,7 +136,6 @@ function startSection(x: Places, v: Places) {
   return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
 }
 
-/** Initial state: positions and velocities of particles, centres of spheres. */
 export interface Start {
   positions: Places;
   velocities: Places;
@@ -159,7 +158,6 @@ export function withStart(toml: string, pins: Int32Array, {positions: x, velocit
   return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
-/** Removes a section, which ends before the next line with a section's name. */
 export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')

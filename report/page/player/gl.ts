@@ -121,7 +121,7 @@ export class Gl {
     if (count > 0) this.gl.drawElementsInstanced(mode, indexed, this.gl.UNSIGNED_SHORT, 0, count);
   }
 
-  /** A texture to be read texel by texel: four floats for each of `count` entries. */
+  /** A texture to be read texel by texel. */
   table(count: number): Table {
     const gl = this.gl, wide = Math.min(count, 1024), high = Math.ceil(count / wide);
     const texture = gl.createTexture()!;

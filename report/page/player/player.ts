@@ -1,5 +1,5 @@
-// <motion-player>: plays runs of a scene in lock-step, in a canvas over the poster. Without WebGL2, only the poster is
-// shown.
+// <motion-player>: plays runs of a scene in lock-step, in a canvas over the poster. Without WebGL2, shows only the
+// poster.
 
 import {Acts, Controls, inTwo, length, Look, make, roundUp, settingOf, short} from './controls';
 import {Orbit} from './orbit';
