@@ -100,8 +100,10 @@ TEST(Disagreements, WorldsInThisProcessRefuseWhatWouldHangThem) {
                             "bullet/deformable-explicit+bodies", "bullet32/deformable-explicit"})
     EXPECT_EQ(refusal(method, "network-in-pieces"),
               "Bullet's contact search hangs on a body whose springs do not join all particles");
-  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "distance-field"), "only springs, gravity and pins at rest"));
-  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "small-things"), "only springs, gravity and pins at rest"));
+  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "distance-field"),
+                       "only springs, gravity and pins at rest"));
+  EXPECT_TRUE(
+      contains(refusal("bullet/deformable-explicit+bodies", "small-things"), "only springs, gravity and pins at rest"));
 }
 
 Series series(Verdict verdict, std::vector<std::pair<double, double>> points, double cpu = 0) {
