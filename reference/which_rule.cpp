@@ -87,7 +87,8 @@ std::vector<DragForm> drag_forms() {
 
 constexpr double gamma = 4;  // 1/s
 
-/// Five particles with eight springs, or only with the first one; initial and rest lengths differ by up to a fifth.
+/// Five particles with eight springs or, if `one_spring`, two particles with the first spring; initial and rest lengths
+/// differ by up to a fifth.
 Scene net(bool held, bool pulled, bool one_spring = false) {
   std::string text =
       "question = \"Which rule is it?\"\nparameters = \"A small net.\"\n[time]\nduration = 1\nsamples = 50\nstep = "

@@ -18,9 +18,9 @@
 namespace crosscheck {
 namespace {
 
-/// Kinds of parameters that can be fitted. `ending`: last keys of the parameter's path. `low`, `high`: search range in
-/// the scene's unit of the parameter, which is a typical mass (1 if `mass` is false) divided by a typical time to the
-/// power `times`.
+/// Kinds of parameters that can be fitted. `ending`: last keys of the parameter's path. `low`, `high`: search range, in
+/// a unit derived from the scene: M / T^`times`, where T is a typical time, and M a typical mass (1 if `mass` is
+/// false).
 struct Kind {
   std::string_view ending, name, unit;
   double low, high;

@@ -63,13 +63,14 @@ class Subject {
   /// positions of single particles are unpredictable (round_off_bound() in experiments/metrics.h), and a perturbation
   /// may miss the event that separates two runs. `lengths` (m): the lengths that occur, if larger than in this run.
   Noise noise(const Scene& scene, double lengths = 0);
-  /// The noise including the residual that a stepper of mysim leaves in its implicit equation, for comparisons with a
-  /// formula or a run that has no residual or a different one. The solver stops at a fraction e of the largest force.
-  /// Since inertia m v / h is one of the forces, the velocity of the lightest particle is off by up to e v m_max /
-  /// m_min in each step, no matter how short the step is. Alternatively, the solver stops at the rounding error of the
-  /// spring forces, 8 eps L sum k. The sum of the stiffnesses at a particle is at most 3 m omega^2, so that the
-  /// velocity is off by 24 eps omega^2 L h. Neither error changes its sign: after n steps the velocity error is n times
-  /// as large, and positions are off by that velocity times the duration.
+  /// The noise plus the effect of the residual that a stepper of mysim leaves in its implicit equation. Needed when the
+  /// run is compared with a formula, or with a run whose residual is different or zero. In each step, the velocity
+  /// error is the larger of two: (1) The solver stops at a fraction e of the largest force. Inertia m v / h is one of
+  /// the forces, so the velocity of the lightest particle is off by up to e v m_max / m_min, no matter how short the
+  /// step is. (2) The solver stops at the rounding error of the spring forces, 8 eps L sum k. The sum of the
+  /// stiffnesses at a particle is at most 3 m omega^2, so the velocity is off by 24 eps omega^2 L h. Neither error
+  /// changes its sign: after n steps the velocity error is n times as large, and positions are off by that velocity
+  /// times the duration.
   Noise noise_with_unsolved(const Scene& scene, double lengths = 0);
   /// The noise without growth, m. `projected`: positions are projected onto constraints, which discards the previous
   /// positions. In that case, the velocity is off by u L / h in each step, which adds up to u L n sqrt(n). This holds

@@ -201,7 +201,8 @@ std::vector<Disagreement> table() {
         {"Bullet, one body, one force", "bullet/deformable-explicit"}},
        second_stretch,
        one_stiffness_effect,
-       // a tenth of the stiffness lets the spring stretch by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
+       // bounds (mm): a tenth of the stiffness lets the spring stretch by up to 196 mm instead of 20 mm; equal runs may
+       // differ by the motion in one step, h v = 0.3 mm at the top speed of 0.31 m/s
        {{apart, 1, 0, 50}},
        {{within, 2, 0, 0.5}}},
       {"gravity-factor",

@@ -261,7 +261,7 @@ constexpr void (*table[])(const Observation&, Quantities&) = {settings,
                                                               change_at_half_the_step,
                                                               largest_stable_step};
 
-/// Quantities of a failed run, evaluated up to half the time of the failure.
+/// Quantities of a failed run, evaluated up to half of the time at which it failed.
 constexpr void (*table_of_failed[])(const Observation&, Quantities&) = {offsets, places};
 
 /// True if the motion itself failed, which happens at a reproducible time.

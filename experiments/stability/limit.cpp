@@ -155,8 +155,9 @@ Rates rates_of(const Vibration& m) {
   return {-m.gamma / 2 - root, -m.gamma / 2 + root};
 }
 
-/// Distance of the scene from rest at the start, and in the first and last tenth of the run. If each step multiplies
-/// the perturbed mode by a constant, also the amplitude of this mode at the start and at the end.
+/// Measures the scene's distance from its state of rest: at the start, and the maxima over the first and the last tenth
+/// of the run. If each step multiplies the perturbed mode by a constant, also measures the amplitude of this mode at
+/// the start and at the end.
 class GrowthObserver : public Observer {
  public:
   GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)

@@ -149,7 +149,8 @@ std::string file_name_of(std::string_view text) {
   return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
-// The owner of a temporary folder locks it until the owner ends. A lock, unlike an id, is valid in every pid namespace.
+// The process that makes a temporary folder keeps it locked until the process ends. A lock, unlike a process id, means
+// the same in every pid namespace.
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
   // a name pattern that no user folder has; remove_stale_temporary_folders() relies on it

@@ -297,7 +297,8 @@ auto with_output_errors(const OutputLock& place, F work) {
   }
 }
 
-/// Cleans up after killed writers; returns the folder's manifest if it may be written into.
+/// Cleans up after killed writers. Refuses a folder that must not be written into; otherwise returns its manifest, or
+/// nullopt if it is empty or does not exist.
 std::optional<Manifest> entered(const OutputLock& place, const std::string& command) {
   return with_output_errors(place, [&] {
     recover(place);

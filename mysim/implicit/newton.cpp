@@ -116,9 +116,9 @@ double IncrementalPotential::value(const Points& u) {
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
-  // A sum of n parts is rounded by at most n eps of their magnitudes, and each part, a product of three coordinates, by
-  // at most 8 eps. A spring's energy is rounded by k |e| eps |x|, because its end points are rounded, and sum k |e| <=
-  // sqrt(sum k e^2) sqrt(sum k).
+  // A sum of n parts is rounded by at most n eps times the sum of their magnitudes, and each part, a dot product of
+  // 3-vectors, by at most 8 eps. A spring's energy is rounded by k |e| eps |x|, because its end points are rounded, and
+  // sum k |e| <= sqrt(sum k e^2) sqrt(sum k).
   rounding_ = (particles.size() + 8) * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;

@@ -23,7 +23,7 @@ std::optional<double> resolve_surfaces(std::span<const Surface> surfaces, Contac
   bool touched = false;
   const Vec3 change = v - v_n;    // m/s, by all other forces
   Vec3 friction = Vec3::Zero();   // m/s, of lasting contacts
-  double impacts = 0, given = 0;  // m^2/s^2; `given` is the work of moving surfaces times the step
+  double impacts = 0, given = 0;  // per unit mass: m^2/s^2; `given`: m^2/s, (work of moving surfaces) x step
   for (const Surface& surface : surfaces) {
     const Vec3 origin = surface.origin_at(t), displacement = origin - surface.origin_at(t_n);
     const Vec3 velocity = surface.velocity_at(t);

@@ -63,7 +63,7 @@ bool RunLoop::step() {
   const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, seen = step_ % stride_ == 0;
   if (!seen && !first) return true;
 
-  // a world with adaptive steps interpolates most states: only intervals with steps are timed
+  // a world with adaptive steps interpolates most states; an interval in which it takes no step is not timed
   const long evaluations = chooses_steps_ ? world_.work().evaluations : 0;
   if (!chooses_steps_ || evaluations > evaluations_) clock_.stop();
   evaluations_ = evaluations;

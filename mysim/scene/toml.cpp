@@ -393,7 +393,7 @@ class KeyCheck {
     }
   }
 
-  /// Hint at the table of an unknown key; empty if no table has such a key.
+  /// Hint for an unknown key: the tables in which it, or else a similar key, is allowed; empty if there is none.
   std::string elsewhere(std::string_view key, const std::string& here) const {
     std::vector<Owned> all;
     owners(all_, "", "the top of the file, before the first [table]", here, all);

@@ -33,7 +33,7 @@ std::vector<OutsideEngine> outside_engines();
 /// The program that `crosscheck engine NAME` keeps for reports; it need not exist.
 std::filesystem::path kept_program(const std::string& engine);
 
-/// The engine whose kept program "exec:PATH+option" names, or nullopt.
+/// The engine to whose kept program the method "exec:PATH+option" refers, or nullopt.
 std::optional<OutsideEngine> kept_engine_of(const std::string& method);
 
 /// The method's name without folders if it names a kept program, e.g. "mujoco+drag=callback"; otherwise unchanged.

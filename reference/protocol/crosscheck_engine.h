@@ -511,8 +511,9 @@ constexpr double hard = std::numeric_limits<double>::infinity();
 
 /// A sphere in the engine.
 struct Ball {
-  Vec centre;                                                          // m, at the start
-  double radius = unknown, friction = unknown, restitution = unknown;  // m, at which particles touch; mu; e
+  Vec centre;                                        // m, at the start
+  double radius = unknown;                           // m, distance from the centre at which particles touch
+  double friction = unknown, restitution = unknown;  // mu, e
 };
 
 /// A plane in the engine: the face that particles touch.

@@ -26,8 +26,10 @@ inline constexpr int tile = 8;  // particles, and springs, per tile
 struct Diagonal {
   int offset;
   int first, last;
-  long mask;     // length of the ring, a power of two, minus 1
-  double* ring;  // N: the force at i is in place i & mask; x, y and z, each with its first tile repeated at the end
+  long mask;  // length of the ring, a power of two, minus 1
+  // N: three rings, for x, y and z; the force at i is in place i & mask; each ring is followed by a copy of its first
+  // tile
+  double* ring;
 };
 
 struct DiaSprings {
@@ -35,8 +37,8 @@ struct DiaSprings {
   const Diagonal* diagonals;
   const int* coefficient_row;  // per tile and diagonal, tile by tile: index of the coefficient row
   const double* coefficients;  // N/m and m: per row, the springs' stiffness, then their rest lengths
-  double* x[3];                // m: coordinates; no two particles coincide in the spare tile on either side
-  double* pulls;               // N: two tiles of 3 x tile, working memory
+  double* x[3];   // m: coordinates, with a spare tile before and after them, whose particles do not coincide
+  double* pulls;  // N: two tiles of 3 x tile, working memory
 };
 
 // COO: a list of springs with arbitrary ends.

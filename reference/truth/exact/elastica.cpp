@@ -75,8 +75,9 @@ using HangingState = std::array<double, 4>;
 /// The hinges pull the strip, so it rises from its middle towards them by less than a right angle.
 constexpr double most_angle = std::numbers::pi / 2;
 
-/// Integrates half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, with
-/// theta'(0) = curvature. Returns the states after each step, up to the first one that bends down or is upright.
+/// Integrates half of a hanging strip, in units of the half's length: theta'' = pull sin theta - weight s cos theta,
+/// with theta'(0) = curvature. Returns the initial state and the state after each step. Stops after the first state
+/// whose angle is negative or exceeds a right angle.
 std::vector<HangingState> hanging_states(double pull, double weight, double curvature) {
   boost::numeric::odeint::runge_kutta4<HangingState> rule;
   HangingState state{0, curvature, 0, 0};
@@ -133,7 +134,8 @@ HangingStrip::Place HangingStrip::at(double s) const {
   const double from_middle = std::abs(s), side = s < 0 ? -1 : 1;
   if (states_.empty())
     return {side * catenary_ * std::asinh(from_middle / catenary_), std::hypot(catenary_, from_middle) - catenary_};
-  // follows the curve from the preceding stored state at the angle halfway; the error is of third order in the step
+  // continues from the preceding stored state along a straight line, at the curve's angle halfway to s; the error is of
+  // third order in the step
   const double at = from_middle / half_ * steps;
   const size_t i = std::min<size_t>(static_cast<size_t>(at), states_.size() - 1);
   const double ds = (at - static_cast<double>(i)) / steps;

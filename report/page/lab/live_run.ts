@@ -289,7 +289,8 @@ export class Truth {
   spec: MethodSpec = {method: ''};
   same = false;  // true: the truth uses the run's own stepper, with a shorter step
   readonly followers: Follower[] = [];
-  private readonly whole: boolean;  // true: the error bar is the whole difference
+  // true: the error bar is the whole difference of two runs; false: a fifth of it
+  private readonly whole: boolean;
 
   constructor(lab: Lab, toml: string, run: LiveRun, contact: boolean) {
     const {offset, step, sim, spec: {method}} = run;

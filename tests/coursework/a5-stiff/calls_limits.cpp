@@ -1,6 +1,7 @@
 // Calls of largest_stable_step.
-//   limits.step: rule (index in the enum), then omega, gamma of each oscillator
-//                two numbers for each: 0, 0 if no step is stable; 1 and the step; 2, 0 if every step is stable
+//   limits.step: in: rule (index in the enum), then omega and gamma of each oscillator
+//                out: two numbers for each oscillator: 0, 0 if no step is stable; 1 and the largest stable step; or
+//                2, 0 if every step is stable
 #include <cmath>
 
 #include "calls.h"

@@ -129,8 +129,8 @@ std::vector<Candidate> candidates(const ClassList& all, const Role& role,
   std::vector<Candidate> named, others;
   for (const ClassInfo& one : all) {
     if (says != wanted.end() && (one.name == says->second || one.full() == says->second)) return {{&one, true, true}};
-    // the roles of pendulum and chain may be swapped: a pendulum of more particles is a chain, and a chain of two a
-    // pendulum
+    // A class that is named like a pendulum may also be the chain, and vice versa: a pendulum with more particles is a
+    // chain, and a chain of two particles is a pendulum.
     if (const Role* bears = named_role(one.name); bears == &role)
       named.push_back({&one, true, true});
     else if ((!bears || bears->part == role.part) && is_kind(all, one, role.stepper) && !same_name(one.name, "RK4"))

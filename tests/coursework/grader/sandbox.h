@@ -10,14 +10,15 @@
 namespace coursework {
 
 struct Limits {
-  double cpu = 2, wall = 5;  // s; cpu: sum over all processes; a single process is stopped at the next full second
-  double idle = 30;          // s during which no process of the program runs or waits for a processor or disk
-  long memory = 1024;        // MB of address space, for each process
-  long processes = 0;        // number of processes that the program may start; 0: only threads
-  long threads = 64;         // number of threads with the main one; enforced only if `processes` is 0
-  long output = 4096;        // kB of standard output and error
-  long answers = 4096;       // kB on the answers' pipe, descriptor 3
-  long file = 16;            // MB, size of each file that the program writes
+  // s; cpu: sum over all processes; each process is also stopped when its own CPU time reaches the next full second
+  double cpu = 2, wall = 5;
+  double idle = 30;     // s during which no process of the program runs or waits for a processor or disk
+  long memory = 1024;   // MB of address space, for each process
+  long processes = 0;   // number of processes that the program may start; 0: only threads
+  long threads = 64;    // number of threads with the main one; enforced only if `processes` is 0
+  long output = 4096;   // kB of standard output and error
+  long answers = 4096;  // kB on the answers' pipe, descriptor 3
+  long file = 16;       // MB, size of each file that the program writes
 };
 
 /// A program to run in a sandbox. If the grader runs as root, the program runs as a separate user and on copies of

@@ -49,7 +49,7 @@ void check(int result) {
   if (result < 0) throw std::runtime_error(fmt::format("libseccomp: {}", std::strerror(-result)));
 }
 
-/// Names that this libseccomp or this machine does not know are skipped, because they cannot be called by name either.
+/// Skips a system call that this libseccomp does not know, or that this machine lacks: a program cannot make it either.
 void refuse(void* filter, const char* name, int error) {
   const int number = seccomp_syscall_resolve_name(name);
   if (number >= 0) check(seccomp_rule_add(filter, SCMP_ACT_ERRNO(error), number, 0));

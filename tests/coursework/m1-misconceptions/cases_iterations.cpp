@@ -145,7 +145,8 @@ std::vector<Case> many(Random& random) {
   return cases;
 }
 
-/// Cases with artificial errors. The best plan is the first, or neither the first nor the last.
+/// Cases with artificial errors. For a budget of 12 the first plan is the best; for the other budgets, the best plan is
+/// neither the first nor the last.
 std::vector<Case> tables(Random& random) {
   std::vector<Case> cases;
   for (const int budget : {6, 12, 16}) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
-/// Points of each test in the result file, public and hidden tests by test number.
+/// Points of each test in the result file: the public tests, then the hidden ones, each group in order of test number.
 std::vector<double> earned_in(const fs::path& json) {
   std::vector<double> earned;
   for (const TestResult& test : result_from_json(content_of_file(json), json.string()).tests)

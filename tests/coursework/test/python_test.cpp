@@ -38,7 +38,8 @@ Submission python_of(const Assignment& assignment, const std::map<std::string, s
   return submission_at(folder.path, assignment);
 }
 
-/// Standard output: NumPy warns on the other stream, in the middle of a line.
+/// Standard output of the command, without standard error, where warnings of NumPy would appear in the middle of a
+/// line.
 std::string said_by(const std::string& command) {
   FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
   std::string said;

@@ -57,7 +57,8 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
       {"is at other times",
        rewrite + "'s/\"steps_per_sample\":[0-9]+/\"steps_per_sample\":37/' \"$1\"\n",
        "",
-       {"sample times", "speeds", "verdict"},  // verdicts also change, because they need a sample per step
+       // verdicts change, too: each state that they judge is requested as a sample
+       {"sample times", "speeds", "verdict"},
        {"certificate"},
        "write frames at run.times"},
       {"leaves the pins where they were",

@@ -103,8 +103,8 @@ TEST(Ledger, ClosesToFirstOrderInContact) {
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 1e-4}) {
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
-      // The bound is m g times the path of a step at the top speed of 5 m/s, once for the landing step and once for the
-      // lag of an Euler rule.
+      // The bound is 2 m g d, where d is the distance of one step at the top speed of 5 m/s: m g d for the landing
+      // step, and m g d for the lag of an Euler rule.
       EXPECT_LT(imbalance(s, scene, {h, 1, 50}), 2 * 9.81 * 5 * h);
     }
 }

@@ -52,7 +52,7 @@ inline Dashpots random_dashpots(unsigned seed, const Network& net) {
   return dashpots;
 }
 
-/// Bending stencils: two of three particles, one of a cell, and one of five particles.
+/// Bending stencils: two with three particles each, one with the four particles of a cell, and one with five.
 inline Bending random_bending(unsigned seed) {
   Random random(seed + 4000);
   const auto k = [&] { return random.between(1, 5); };

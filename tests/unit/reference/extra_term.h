@@ -17,7 +17,7 @@
 
 namespace crosscheck {
 
-/// A pull towards the origin: a force with an energy, complete for mysim's own steppers.
+/// A pull towards the origin. Defines a force and an energy, which is all that mysim's own steppers need.
 struct Tide {
   static constexpr std::string_view name = "tide";
   double stiffness;  // N/m

@@ -322,7 +322,7 @@ TEST(EnergyFindings, DampingNamesWhoWasAsked) {
   const Finding f = the(energy_findings(rows_of({t})), "numerical-damping");
   EXPECT_EQ(f.method, "bullet/pbd");
   EXPECT_NEAR(f.value, 0.0216, 1e-4);
-  EXPECT_TRUE(contains(sentence_of(f), "at h ω = 0.1 like a drag of 0.10 ω"));
+  EXPECT_TRUE(contains(sentence_of(f), "at h ω = 0.1, as strongly as a drag of 0.10 ω"));
   EXPECT_TRUE(contains(figure_info(charts_of(energy_charts, rows_of({t})).at(0))->finding, "in 2 measurements"));
   const Table none = damping("bullet/deformable-explicit", {{0.1, 1e-9, 0.}});
   EXPECT_TRUE(energy_findings(rows_of({none})).empty());

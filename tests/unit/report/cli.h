@@ -1,4 +1,4 @@
-// Calls the program in its own folder.
+// Calls the program in a temporary folder, one for each test.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -19,8 +19,9 @@ double falling(double mass, double stiffness, double h, double rho, int passes, 
   return (1 - left_over(mu, rho, passes)) * gravity;
 }
 
-// near rest, velocity alone leads to the deviation (1 + c) x - c x_before. The exact step multiplies this deviation by
-// m/h^2 / (m/h^2 + lambda), a step by passes multiplies it by q. The growth z solves z^2 - (1 + c) q z + c q = 0
+// near rest, let x be the deviation and c = velocity_kept: without forces, the next deviation would be (1 + c) x - c
+// x_before. The exact step multiplies this by m/h^2 / (m/h^2 + lambda), a step of several passes by q. The growth z per
+// step therefore solves z^2 - (1 + c) q z + c q = 0
 double step_growth(double mu, double inertia, double rho, int passes) {
   const double exact = inertia / (1 - mu), q = exact + left_over(mu, rho, passes) * (1 - exact);
   const double half = (1 + velocity_kept) * q / 2, root = half * half - velocity_kept * q;

@@ -13,7 +13,7 @@ bool simple(const std::string& call, const coursework::Numbers& in, coursework::
   if (call != "field") return false;
   T& system = ready<T>(1, false);
   const std::size_t size = state_of(system).size();
-  // fills each vector with the first entry of the other, so that they differ in every entry
+  // fills each vector with the first entry of the other, except for its own first entry: the two then differ everywhere
   Vec given(size, vector_at(in, 3)), stored(size, vector_at(in, 0));
   given[0] = vector_at(in, 0);
   stored[0] = vector_at(in, 3);
