@@ -90,7 +90,7 @@ struct MethodResult {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
-  std::vector<LedgerRow> ledger;  // empty in first-order scenes, without velocities, and for unsupported scenes
+  std::vector<LedgerRow> ledger;  // empty for first-order scenes, methods without velocities, and unsupported scenes
   bool contact_inferred = false;
 };
 

@@ -73,9 +73,9 @@ struct ContactStatistics {
   static constexpr double perturbation = 1e-6;
 };
 
-/// Quantities of one run with velocities, for scenes with contact, without deviations. They are the height (y) of the
-/// centre of mass, kinetic energy, elastic energy and outline (RMS distance of the free particles from the vertical
-/// through their centre of mass) at the end, and the smallest clearance at any sample.
+/// Quantities of one run of a scene with contact, whose deviations are 0; the run must have recorded velocities. They
+/// are the height (y) of the centre of mass, kinetic energy, elastic energy and outline (RMS distance of the free
+/// particles from the vertical through their centre of mass) at the end, and the smallest clearance at any sample.
 std::vector<Statistic> contact_quantities(const Scene& scene, const Trajectory& path);
 
 /// Means and deviations of contact_quantities() over 16 perturbed runs. Empty if the method does not support the scene,

@@ -52,9 +52,11 @@ enum class Ground { ball, plane };
 /// A particle at rest on a slope (`degrees`): on a plane, or on the side of a ball so large that it is locally flat.
 Scene on_slope(double degrees, double friction, Ground ground);
 struct ConeResult {
-  double distance;     // m, in 0.5 s
-  double coulomb;      // m, by Coulomb's law: 0 within the friction cone, otherwise g (sin - mu cos) t^2 / 2
-  ContactState state;  // sticks: moves < 1 mm (plane: 50 um); slides: `coulomb` to within a tenth plus 1 mm (50 um)
+  double distance;  // m, in 0.5 s
+  double coulomb;   // m, by Coulomb's law: 0 within the friction cone, otherwise g (sin - mu cos) t^2 / 2
+  // sticks: moves less than 1 mm (on a plane 50 um); slides: moves by `coulomb`, within 10 % plus 1 mm (on a plane 50
+  // um)
+  ContactState state;
 };
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, Ground ground, double step,
                                Outcome& out);

@@ -46,8 +46,8 @@ std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, doubl
 
 /// True for methods of the engine under test (except demonstrations) and for the user's programs.
 bool is_candidate(const std::string& method);
-/// The candidates' runs on a scene in table `speed-accuracy`. Costs are counted in evaluations, and not multiplied by
-/// the scene's number of springs.
+/// The candidates' runs on a scene, from the rows of table `speed-accuracy`. Costs are numbers of evaluations, without
+/// the factor for the scene's number of springs.
 std::vector<TriedRun> tried_runs(const std::vector<SpeedAccuracyRow>& rows, const std::string& scene);
 /// All methods of the engine under test; on scenes with contact, also with event location if supported.
 std::vector<Method> candidates(const Scene& scene);

@@ -182,7 +182,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      // without contact, run.step only spaces the observed states, so the first step is the scene's
+      // without contact, run.step is only the interval between observed states, so the first step is scene.step
       h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
       shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),

@@ -122,7 +122,8 @@ double largest_length_ratio(const Model& model, const State& start, const Points
 
 namespace {
 
-/// Bounds up to each sample, by the time of the sample (s); empty if leapfrog cannot run the scene, or fails.
+/// Bounds on the motion from the start to each sample; the key is the sample's time (s). Empty if leapfrog cannot run
+/// the scene, or fails.
 std::map<double, MotionBounds> motion_bounds_over_time(const Scene& scene, const Run& run) {
   const auto rules = steppers();
   const Stepper& rule =

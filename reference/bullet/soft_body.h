@@ -35,10 +35,11 @@ void require_supported(const Scene& scene, bool may_hang = false);
 
 /// Options that demonstrate the effect of a harmful default of Bullet, or of ignoring Bullet's advice.
 struct BulletDefaults {
-  bool rest = false;           // the first step overwrites rest lengths by current lengths
-  bool margin = false;         // keeps the margin of 0.25 m
-  bool sleep = false;          // bodies slower than 0.04 m/s for 2 s fall asleep
-  bool pieces = false;         // allow a network in pieces near a sphere, which hangs Bullet's node tree builder
+  bool rest = false;    // the first step overwrites rest lengths by current lengths
+  bool margin = false;  // keeps the margin of 0.25 m
+  bool sleep = false;   // bodies slower than 0.04 m/s for 2 s fall asleep
+  // accepts a network of several pieces near a sphere, although Bullet's node tree builder hangs on it
+  bool pieces = false;
   double gravity_factor = 1;   // the body's gravity factor, by which the world's gravity is divided
   std::optional<double> kLST;  // value for all links, whatever the scene's stiffness
 };

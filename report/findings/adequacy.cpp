@@ -71,7 +71,7 @@ Findings adequacy_findings(const Facts& facts) {
 Findings bend_findings(const Facts& facts) {
   const auto of_cells = power_of(facts.rows, "", ScalingQuantity::bend_stiffness_for_droop);
   if (!of_cells) return {};
-  std::vector<std::pair<double, double>> points;  // power of the number of bend springs along a line
+  std::vector<std::pair<double, double>> points;  // number of bend springs along a line, their stiffness (N/m)
   for (const BendingRow& row : rows_of<BendingRow>(facts.rows))
     points.emplace_back(double(row.particles) - 2, row.stiffness);
   const auto of_springs = power_law(points);

@@ -1,4 +1,4 @@
-// Results do not depend on the user's font settings, except for the choice of files with DejaVu Sans.
+// The user's font settings affect results only through the choice of the font files for DejaVu Sans.
 #include "report/pictures/lettering.h"
 
 #include <cairo-pdf.h>

@@ -49,7 +49,7 @@ using ContactCallback = void (*)(void* user_data, int row, int tile, T* x, T* v)
 template <class T>
 struct ClothGrid {
   int rows, tiles;                  // tiles: of a row, without halo
-  int leading_halo, trailing_halo;  // first and last rows that belong to a neighbour
+  int leading_halo, trailing_halo;  // number of rows at the start and at the end that belong to a neighbour
   T *x, *v;                         // m, m/s: rows x (left_halo + tiles + right_halo) x 3 x lanes; v without halo
   T* force;                         // N: three rows in the layout of x, working memory
   const T* k[directions];           // N/m: tiles x lanes; null if there is no spring

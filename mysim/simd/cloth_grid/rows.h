@@ -16,8 +16,9 @@ FORCE_INLINE void clear(T* row, long numbers) {
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
-/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. One lane of each halo tile copies
-/// nothing and holds 0, so adding it to the number beyond the copied tile does not change that number.
+/// Each tile of a row's halo is a copy of another tile, shifted by one lane. Adds the forces on the halo to the
+/// originals. One lane of each halo tile is a copy of nothing and holds 0; it is added to a number just outside the
+/// original tile, which therefore does not change.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
   assert(tiles >= 1);

@@ -62,7 +62,8 @@ std::string three_text(const float* v) {
 }
 std::string vector_text(const Plain& v) { return "(" + three_text(v.at) + ")"; }
 
-constexpr std::size_t most_in_order = 200;  // more entries or particles are sampled (probe/draws.h)
+// with more entries or particles, only a random sample is checked (probe/draws.h)
+constexpr std::size_t most_in_order = 200;
 
 std::string purity_shown(const Texts& own, const Findings& found) {
   if (found.n >= most_in_order) return "";

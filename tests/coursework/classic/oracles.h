@@ -49,8 +49,9 @@ Features gravity(const Findings& found);
 double gravity_on(const Findings& found, std::size_t i);
 double drag_on(const Findings& found, std::size_t i);
 bool is_free(const Findings& found, std::size_t i, std::size_t first, std::size_t last);
-/// proportional_drag: v' of particle i at 2 w, extrapolated from its v' at 0 and at w. is_proportional: true if the v'
-/// measured at 2 w, while all other particles have w, is close to this value.
+/// w is the velocity drawn for a particle. proportional_drag: v' of particle i at velocity 2 w, extrapolated from its
+/// v' at rest and at w. is_proportional: true if the v' measured at 2 w, while all other particles move at w, is close
+/// to this value.
 probe::Plain proportional_drag(const Findings& found, std::size_t i);
 bool is_proportional(const Findings& found, std::size_t i);
 /// Drag opposes the velocity (-1: acts along it) | proportional to the velocity

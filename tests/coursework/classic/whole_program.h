@@ -40,13 +40,14 @@ Files files_below(const std::filesystem::path& folder);
 struct Earned {
   int points = 0, of = 0;
 };
-/// Runs a program around one class in a role.
+/// Runs a program that was built with one class in a role.
 using Trial = std::function<Earned(const std::filesystem::path& program, const Role& role)>;
 
 /// Compiles and links `parts` (all, if empty) of `files` in the folder `tree`, which need not exist. The sandbox sees
 /// only `tree`: our files that it needs are copied there, but neither solution nor tests. `coursework` is
 /// tests/coursework. If several classes could take a role, builds and tries them until one earns all points. `wanted`
-/// maps roles to the classes that the student chose. `rate`: try all chosen classes.
+/// maps roles to the classes that the student chose. If `rate`, also tries classes that were the only candidates for
+/// their role, and adds up the points.
 Programs build_programs(const Files& files, const std::filesystem::path& tree, const std::filesystem::path& coursework,
                         const Sandbox& sandbox, const Toolchain& tools, const std::vector<std::string>& parts = {},
                         const Trial& trial = nullptr, const std::map<std::string, std::string>& wanted = {},

@@ -15,7 +15,7 @@ struct Limits {
   double idle = 30;     // s during which no process of the program runs or waits for a processor or disk
   long memory = 1024;   // MB of address space, for each process
   long processes = 0;   // number of processes that the program may start; 0: only threads
-  long threads = 64;    // number of threads with the main one; enforced only if `processes` is 0
+  long threads = 64;    // number of threads, including the main one; enforced only if `processes` is 0
   long output = 4096;   // kB of standard output and error
   long answers = 4096;  // kB on the answers' pipe, descriptor 3
   long file = 16;       // MB, size of each file that the program writes

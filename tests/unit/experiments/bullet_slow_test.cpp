@@ -132,7 +132,8 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   }
   fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
              rms, mean_apart, closest);
-  // required bounds: Bullet uses the normals of old positions, so that nodes hop by (v h)^2 / 2R in each step
+  // The bounds allow for Bullet's use of the normals at old positions, which lets nodes hop by (v h)^2 / 2R in each
+  // step.
   EXPECT_LE(rms, 2e-3);
   EXPECT_LE(mean_apart, 5e-3);
   EXPECT_GE(closest, -1e-3);  // error: 6e-6 m from voxels of 0.005 m, plus one hop

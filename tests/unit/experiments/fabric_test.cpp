@@ -234,7 +234,8 @@ TEST(DrapedDisc, ItsCoefficientIsThatOfKnownShadows) {
   Points x = disc_scene(disc).start.x;
   // the error comes from sampling a round edge by rows of height 2 R / 2000
   EXPECT_NEAR(drape_coefficient(disc, x), 100, 2e-3);
-  // the cloth is folded over its disc, so that its shadow has the radius r computed here
+  // folds the cloth over its disc: a radius r beyond 0.09 m becomes 0.09 m + 0.6 (r - 0.09 m), so the shadow has a
+  // radius of 0.126 m
   for (int i = 2; i <= disc.rings + 1; ++i)
     for (int j = 0; j < disc.spokes(); ++j) {
       const double shrunk = (0.09 + 0.6 * (disc.radius(i) - 0.09)) / disc.radius(i);

@@ -48,7 +48,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   EXPECT_EQ(compared, 6);
 }
 
-/// Installs the example engine as the kept program of Rapier, which also offers springs as user-supplied forces.
+/// Installs the example engine in place of Rapier, whose adapter has an option for springs as user-supplied forces.
 TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   const SetVariable cache("CROSSCHECK_CACHE", folder_.c_str());
   const auto program = kept_program("rapier");

@@ -68,7 +68,7 @@ double growth_at_two_corners(const Scene& s) {
   const std::vector<int>& pins = s.model.particles.pins;
   file.set("pins.particles", std::vector<int>{pins.front(), pins.back()});
   Scene corners = parse_scene(file.text(), s.name);
-  // the measurement uses another rule, under which the step of an animation would blow up
+  // the measurement uses symplectic Euler, which would blow up at the scene's long step
   corners.step = std::min(corners.step, 1 / omega_of(corners));
   return perturbation_growth(find_method("symplectic-euler"), corners, corners.step, corners.duration);
 }

@@ -45,7 +45,7 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
                                                      [&] { return order += 'b', 0.4e-3; }};
   const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
   // Each run begins with a warm-up. That of `a` takes 1 s, which is long enough to count as a repetition. Afterwards,
-  // `b` runs three times per turn until it has taken 1 ms, and `a` stops after two runs.
+  // each turn of `b` has three runs, which together take 1 ms; `a` stops after two runs.
   EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);

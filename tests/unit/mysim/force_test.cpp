@@ -225,7 +225,8 @@ TEST(Dashpots, LeaveRigidMotionAlone) {
     Random random(seed + 7);
     const Vec3 velocity = random.vector(), spin = 5 * random.vector();
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = velocity + spin.cross(Vec3(net.state.x.col(i)));
-    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2, divided by d of at least 0.3 m.
+    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2. The force divides this by |d|, which is at least
+    // 0.3 m.
     EXPECT_LT(force_of(random_dashpots(seed, net), net).cwiseAbs().maxCoeff(), 5 * 2 * 8 * eps * 9 * 12 / 0.3);
   }
 }
@@ -238,8 +239,7 @@ TEST(LinkLaw, HasTheTensionAndTheEnergyOfItsFormulas) {
     const auto [force, slope_there] = tension_of(s, SpringLaw::bullet_link, length);
     EXPECT_NEAR(force, s.k * length * (l2 - r2) / (l2 + r2), 8 * eps * s.k * length);
     auto tension = [&](double at) { return tension_of(s, SpringLaw::bullet_link, at).force; };
-    // bound: eps^(2/3) times the sum of a sixth of the third derivative, which is below 24 k / r^2, and of the size of
-    // the force
+    // bound: eps^(2/3) (|T'''| / 6 + |T|), where T is the tension, |T'''| < 24 k / r^2 and |T| <= 3 k
     EXPECT_NEAR(slope_there, (tension(length + step) - tension(length - step)) / (2 * step),
                 (4 * s.k / r2 + s.k * 3) * std::pow(eps, 2.0 / 3));
     // the energy is the integral of the tension from the rest length, computed by Simpson's rule with 2000 intervals

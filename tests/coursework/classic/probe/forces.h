@@ -267,10 +267,10 @@ class Forces {
     apart_ = fits[1] > fits[0];
   }
 
-  /// Avoids obstacles such as a sphere or a floor near the initial state, where forces depend on the position. Compares
-  /// the forces at two places that are far from each other and from the initial state, beyond all obstacles seen so
-  /// far. If the forces are equal, all questions are asked at the first place. If not (for example because a place
-  /// attracts the particles), nothing is moved.
+  /// Forces may depend on the position near obstacles, such as a sphere or a floor at the initial state. To avoid them,
+  /// compares the forces at two places that are far from each other and from the initial state, beyond all obstacles
+  /// seen so far. If the forces are equal, asks all questions at the first place. If not (for example because a place
+  /// attracts the particles), moves nothing.
   bool leave_obstacles() {
     Plain low = start_[x(0)], high = low;
     for (std::size_t i = 0; i < n_; ++i)
