@@ -212,7 +212,7 @@ std::set<std::string> tests_named(const Assignment& assignment, const std::vecto
     bool any = false;
     std::vector<std::string> names;
     for (const Test& test : assignment.tests)
-      for (const std::string name : {std::string(test.id), std::string(test.part)}) {
+      for (const std::string& name : {std::string(test.id), std::string(test.part)}) {
         names.push_back(name);
         if (!crosscheck::glob_matches(pattern, name)) continue;
         tests.emplace(test.id);

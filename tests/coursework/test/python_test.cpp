@@ -113,9 +113,10 @@ class PythonPrograms : public testing::TestWithParam<std::string> {
       std::vector<TestRun> runs;
       EXPECT_EQ(lost(one.part, source, true, runs), loses);
       const bool named = std::ranges::any_of(known, [&](const Mistake& other) { return other.name == one.name; });
-      if (named)
+      if (named) {
         EXPECT_EQ(likely_causes(assignment_, one.part, runs, known, *builder_, *trusted_, 2),
                   std::vector<std::string>{one.name});
+      }
       std::set<std::string> shown = lost(one.part, source, false, runs);
       EXPECT_EQ(shown, loses);
       for (const coursework::Test& test : assignment_.tests)
@@ -282,7 +283,9 @@ TEST(PythonHandout, HoldsNoLineOfTheSolution) {
     for (const Part& part : assignment.parts) {
       std::istringstream lines(solution(assignment, std::string(part.name)));
       for (std::string line; std::getline(lines, line);)
-        if (line.starts_with("    ") && line.size() > 20) EXPECT_EQ(all.find(line), std::string::npos) << line;
+        if (line.starts_with("    ") && line.size() > 20) {
+          EXPECT_EQ(all.find(line), std::string::npos) << line;
+        }
     }
   }
 }
