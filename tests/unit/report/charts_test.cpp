@@ -254,7 +254,8 @@ TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
   for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "accurate to 1 %")) << figure_info(charts[0])->finding;
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
-  EXPECT_TRUE(says(figure_info(charts[1])->finding, {"5 nodes", "71.5 %", "0.5 points", "8 rings", "71 to 74 %"}))
+  EXPECT_TRUE(
+      says(figure_info(charts[1])->finding, {"5 nodes", "71.5 %", "0.5 percentage points", "8 rings", "71 to 74 %"}))
       << figure_info(charts[1])->finding;
   EXPECT_TRUE(
       contains(figure_info(charts[1])->caption, "with four times this C66, the coefficient is 76.0 % on 8 rings"));
