@@ -548,7 +548,7 @@ TEST_F(Answers, RunsThatFailedAreCountedWhereNoLimitWasMeasured) {
   facts_[2].methods[2].verdict = Verdict::unsupported;
   const Finding failed = the(answers({}), "answer-failed");
   EXPECT_EQ(failed.value, 1);
-  EXPECT_TRUE(says(sentence_of(failed), {"failed", "1 of 8", "symplectic-euler"}));
+  EXPECT_TRUE(says(sentence_of(failed), {"1 of 8", "failed", "symplectic-euler"}));
 }
 
 TEST(StepReadBack, IsTheSameToRoundingInEveryChapter) {
