@@ -93,7 +93,7 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
   static constexpr Experiment table[] = {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
-      {"speed-accuracy", "What error does each method have at which cost, and where does it fail?",
+      {"speed-accuracy", "How large is the error of each method, at what cost, and where does it fail?",
        speed_accuracy_points, timed_scenes, conclude_speed_accuracy, speed_charts},
       // near the front, because its longest points take longer than all others
       {"adequacy", "How little model is enough for a scene?", adequacy_points, all_and_swing, conclude_adequacy,
