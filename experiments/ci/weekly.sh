@@ -32,7 +32,7 @@ declare -A tests=( # names as ctest knows them; a part without tests runs someth
   [corpus]='All/(EachCheat|OddPrograms|UnusualPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
   [rehearsals]='NewTerm\.|Adding\.'
-  [node]='LabModule\.(AFinger|CellsOfMaps|GivesTheNativeBits|GuidedExperimentsGoToTheirEndInEnglish|ScenesChangedByHand|SlidersChangeTheir)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'
+  [node]='LabModule\.(AFinger|GivesTheNativeBits|GuidedExperimentsGoToTheirEndInEnglish|ScenesChangedByHand|SlidersChangeTheir)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'
   [engines]='ForPeople/Documents\.CommandsPrintWhatIsShown/engines'
   [latex]='FigureSet\.APaperWithTheSetCompiles'
 )
