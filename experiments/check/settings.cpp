@@ -15,9 +15,8 @@ void require_own_step(const Method& method) {
   if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
   if (method.identify && method.identify().kind == FoundRule::ignores_step)
     throw RunFailed(
-        "the requested step has no effect, but run.json does not say \"adaptive\", as an engine must that chooses its "
-        "own steps",
-        0, Verdict::ok);
+        "the requested step has no effect; an engine that chooses its own steps must say \"adaptive\" in run.json", 0,
+        Verdict::ok);
 }
 
 /// Requires `fine` to be at most the fraction `part` of `coarse`, plus twice the noise. Compares only while `coarse` is

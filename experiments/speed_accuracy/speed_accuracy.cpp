@@ -13,6 +13,7 @@
 #include "experiments/scenes/ingredients.h"
 #include "experiments/speed_accuracy/step_search.h"
 #include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/engines.h"
 #include "experiments/timing/timing.h"
 #include "mysim/model/system.h"
 
@@ -266,11 +267,6 @@ void refine(const Method& method, const Judged& of, const Request& request, Moti
   std::ranges::stable_sort(tries, std::greater{}, [](const SettingRun& run) { return run.setting.value; });
 }
 
-std::string tier_text(const Judged& of) {
-  return !of.truth ? ""
-                   : std::string(name_of(of.truth->tier)) + (of.under_contact_rule() ? ", mysim's contact rule" : "");
-}
-
 SpeedAccuracyRow row_of(const Judged& of, const std::string& method, const SettingRun& run,
                         const std::vector<SettingRun>& tries) {
   const Outcome& out = run.outcome;
@@ -293,7 +289,10 @@ SpeedAccuracyRow row_of(const Judged& of, const std::string& method, const Setti
   }
   if (run.ok() && tries.back().ok() && &run != &tries.back())
     row.to_own_finest = distance_over_time(run.trajectory, tries.back().trajectory, of.scene.window).largest;
-  if (of.truth) row.truth = tier_text(of), row.truth_bar = of.truth->error_bar;
+  if (of.truth) {
+    row.truth = std::get<std::string>(to_cell(TruthKind{of.truth->tier, of.under_contact_rule()}));
+    row.truth_bar = of.truth->error_bar;
+  }
   return row;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
+#include "experiments/tables/engines.h"
 
 namespace crosscheck {
 
@@ -56,7 +57,7 @@ std::vector<SceneRuns> runs_of(const Table& table) {
   std::vector<SceneRuns> scenes;
   for (const SpeedAccuracyRow& row : rows_of<SpeedAccuracyRow>(table)) {
     if (scenes.empty() || scenes.back().scene != row.scene) {
-      const bool difference = row.truth && row.truth->find("contact rule") != std::string::npos;
+      const bool difference = row.truth && CellOf<TruthKind>::read(*row.truth).of_contact_rule;
       scenes.push_back({row.scene, row.motion, row.truth_bar, difference ? Measure::difference : Measure::error, {}});
     }
     SceneRuns& s = scenes.back();

@@ -252,7 +252,7 @@ void DeformableForces::carry_springs(const Springs* springs, const Dashpots* das
     if (dashpot) mapped_["dashpots"] = "Bullet's own mass-spring force, solved implicitly";
   } else if (springs) {
     ours.springs = springs;
-    mapped_["stiffness"] = implicit_ ? "force class of our own: second derivatives clamped to be non-negative"
+    mapped_["stiffness"] = implicit_ ? "force class of our own: second derivatives made positive semidefinite"
                            : springs->law == SpringLaw::hooke
                                ? "force class of our own: one stiffness per spring"
                                : "force class of our own: the scene's law, one stiffness per spring";

@@ -100,7 +100,7 @@ int to_engine(const TranslateOptions& options) {
   if (method) {
     require_resources_to_keep({find_method(scene.method), *method}, scene, run);
     Progress progress(1);
-    progress.begin(fmt::format("running {}, and the reference solution of {}", method->name, scene.name));
+    progress.begin(fmt::format("running {}, and finding the reference solution of {}", method->name, scene.name));
     measured = run_translated(scene, t, *method);
     progress.done();
   }

@@ -46,7 +46,8 @@ def as_array(what, value, *shape):
         raise TypeError(f"{what}: expected numbers, got {value if value is None else type(value).__name__}")
     array = np.array(value, dtype=float)
     if array.ndim != len(shape) or any(wanted not in (-1, size) for wanted, size in zip(shape, array.shape)):
-        raise TypeError(f"{what}: expected an array of shape {shape}, got {array.shape}".replace("-1", "n"))
+        wanted = str(shape).replace("-1", "n")
+        raise TypeError(f"{what}: expected an array of shape {wanted}, got {array.shape}")
     return array
 
 

@@ -343,7 +343,7 @@ TEST(PythonHandout, NamesTheShapeOfAState) {
 }
 
 TEST(PythonHandout, SaysHowToInstallNumPy) {
-  if (!missing_python_package().empty()) GTEST_SKIP();
+  if (const std::string package = missing_python_package(); !package.empty()) GTEST_SKIP() << package;
   EXPECT_EQ(checked("a1-steppers", {}, "-S"),
             "check.py needs NumPy. Debian and Ubuntu: apt install python3-numpy; elsewhere: pip install numpy\n");
 }

@@ -279,7 +279,7 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
   const Table& energies = *result.table("engines-energy");
   EXPECT_EQ(energies.rows.size(), 2u);  // rows of mysim on both scenes
   bool said = false;
-  for (const std::string& note : result.notes) said |= note.find("no velocities") != std::string::npos;
+  for (const std::string& note : result.notes) said |= note.find(": no velocities") != std::string::npos;
   EXPECT_TRUE(said);
   const Table& engines = *result.table("engines");
   for (size_t i = 0; i < engines.rows.size(); ++i)
