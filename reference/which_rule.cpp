@@ -349,13 +349,14 @@ std::string sentence_of(const FoundRule& found) {
       return fmt::format("{} on a net of {}{}: largest difference {:.1e} of the net's size{}", found.rule, found.tried,
                          found.drag.empty() ? "" : fmt::format(" ({} drag)", found.drag), found.distance, more);
     case FoundRule::nearest:
-      return fmt::format(
-          "no rule of mysim; nearest: {}, at {:.1e} of the size of a net of {}{}{}", found.rule, found.distance,
-          found.tried, found.on_one_spring.empty() ? "" : fmt::format("; {} on one spring", found.on_one_spring), more);
+      return fmt::format("none of mysim's; the nearest is {}, at a distance of {:.1e} of the size of a net of {}{}{}",
+                         found.rule, found.distance, found.tried,
+                         found.on_one_spring.empty() ? "" : fmt::format("; {} on one spring", found.on_one_spring),
+                         more);
     case FoundRule::own_steps:
-      return "chooses its steps: the requested step has no effect";
+      return "unknown: it chooses its own steps";
     case FoundRule::ignores_step:
-      return "ignores the requested step";
+      return "unknown: it ignores the requested step";
     case FoundRule::unknown:
       break;
   }

@@ -60,7 +60,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     const BaseState base = base_state_of(kind.with(scene, value));
     const PredictedLimit predicted = predicted_limit(method, base.spectrum);
     const Perturbation perturbation{predicted.mode, visible};
-    double held = 0, failed = 0;  // s, first step that failed and last step that held before it
+    double held = 0, failed = 0;  // s, longest step that held below the first step that failed, and that step
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
       LastFrames pictures(base.spectrum.omega, h);

@@ -93,7 +93,7 @@ int to_engine(const TranslateOptions& options) {
   try {
     t = translate(scene, target, time_grid(run).h);
   } catch (const Unsupported& why) {
-    fmt::print(stderr, "crosscheck: {} has no numbers for {}: {}\n", target.name, options.scene, why.what());
+    fmt::print(stderr, "crosscheck: {} has no parameters for {}: {}\n", target.name, options.scene, why.what());
     return 1;
   }
   std::optional<TranslatedRun> measured;
@@ -124,7 +124,7 @@ int to_engine(const TranslateOptions& options) {
     for (const TranslatedNumber& number : t.numbers) json["numbers"].push_back(json_of(number));
     fmt::print("{}\n", dump(json, 1));
   } else {
-    fmt::print("{} in the numbers of {}: {}\n", scene.name, target.name, target.numbers->title);
+    fmt::print("{} in the parameters of {}: {}\n", scene.name, target.name, target.numbers->title);
     fmt::print("  step h = {:.6g} s{}\n", t.h,
                target.numbers->iterations.empty()
                    ? ""

@@ -26,7 +26,7 @@ TEST_F(CliTranslate, ThereAndBackIsTheSameScene) {
   write("own.toml", own_scene);
   expect({"translate", "own.toml", "--to", "bullet/pbd", "--iterations", "4", "--step", "2e-3", "--out", "there.toml"},
          0,
-         {"own in the numbers of bullet/pbd+n=4", "spring stiffness k: 90 to 150 N/m", "one for each spring",
+         {"own in the parameters of bullet/pbd+n=4", "spring stiffness k: 90 to 150 N/m", "one for each spring",
           "kLST = 1 - (1 + k h^2 / mu)^(-1/n)", "holds", "converted back (within", "measured by bullet/pbd+n=4: error",
           "% of the motion", "error bar", "different law", "there.toml"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "there.toml", "--out", "back.toml"}, 0,
@@ -93,7 +93,7 @@ TEST_F(CliTranslate, RefusalsNameWhatWasExpected) {
   expect({"translate", "own.toml", "--to", "rk4", "--iterations", "3"}, 2, {"mysim/rk4 always takes one pass"});
   expect({"translate", "chian", "--to", "jolt"}, 2, {"did you mean 'chain'?"});
   // a scene that has nothing to translate, and a world that does not support the scene
-  expect({"translate", "circle", "--to", "bullet/pbd"}, 1, {"has no numbers for circle", "first-order"});
+  expect({"translate", "circle", "--to", "bullet/pbd"}, 1, {"has no parameters for circle", "first-order"});
   EXPECT_EQ(call({"translate", "rod", "--to", "bullet/deformable-implicit"}).status, 1);
 }
 
