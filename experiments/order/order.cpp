@@ -115,8 +115,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
           fmt::format("order finds no steady slope for {} on {}", without_folders(method.name), scene.name));
   }
   if (!adaptive.empty())
-    tables.notes.push_back(
-        fmt::format("order leaves out {}: their steps follow a tolerance", fmt::join(adaptive, ", ")));
+    tables.notes.push_back(fmt::format("order leaves out {}: adaptive steps", fmt::join(adaptive, ", ")));
   tables.add(points);
   tables.add(slopes);
 }
